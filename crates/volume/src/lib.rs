@@ -17,11 +17,15 @@
 //! ```
 
 mod brick_layout;
+mod frame;
 mod stored_type;
+mod transfer_function;
 mod volume_desc;
 mod volume_reader;
 
 pub use brick_layout::{BrickGrid, BrickId, BrickLayout};
+pub use frame::Frame;
 pub use stored_type::StoredType;
+pub use transfer_function::{ControlPoint, TransferFunction};
 pub use volume_desc::{Rescale, VOLUME_MARGIN_VOXELS, VolumeDesc};
 pub use volume_reader::{Endian, FlatPiece, FlatPlacement, ReadError, VolumeReader};

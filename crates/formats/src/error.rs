@@ -1,0 +1,18 @@
+use std::io;
+use std::path::PathBuf;
+
+/// Why a file cannot be opened or read as a volume. Each message names the file, says what is wrong, and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum FormatError {
+    #[error("{}: {source}", .path.display())]
+    Io { path: PathBuf, source: io::Error },
+    /// The file contradicts itself or its format.
+    #[error("{}: {what}", .path.display())]
+    Malformed { path: PathBuf, what: String },
+    /// The file is sound, but holds what glassbrick does not read.
+    #[error("{}: {what}", .path.display())]
+    Unsupported { path: PathBuf, what: String },
+    /// The file or folder is of no format that glassbrick reads.
+    #[error("{}: {what}", .path.display())]
+    Unknown { path: PathBuf, what: String },
+}
