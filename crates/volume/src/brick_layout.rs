@@ -1,4 +1,6 @@
-use glam::{IVec3, UVec3};
+use glam::{IVec3, UVec3, Vec3};
+
+use crate::VOLUME_MARGIN_VOXELS;
 
 /// How a volume is cut: bricks of `edge`³ voxels, of which a halo on every side repeats the neighbours' voxels.
 ///
@@ -91,5 +93,57 @@ impl BrickGrid {
     /// First voxel of a brick with its halo; it may lie before the volume.
     pub fn halo_start(&self, brick: UVec3) -> IVec3 {
         self.core_start(brick).as_ivec3() - self.layout.halo as i32
+    }
+
+    /// The half-open box [low, high) of sample positions that belong to a brick: its core's voxels with their faces.
+    /// The outermost cores reach to the volume's margin. The bounds are exact in `f32`.
+    pub fn owned_box(&self, brick: UVec3) -> [Vec3; 2] {
+        let margin = VOLUME_MARGIN_VOXELS as f32;
+        let first = brick.cmpeq(UVec3::ZERO);
+        let last = (brick + 1).cmpeq(self.counts);
+        let low = self.core_start(brick).as_vec3() - 0.5;
+        let high = self.core_end(brick).as_vec3() - 0.5;
+        [Vec3::select(first, low - margin, low), Vec3::select(last, high + margin, high)]
+    }
+
+    /// The one brick that a sample at this position belongs to; none outside the volume.
+    pub fn owner(&self, sample_voxel: Vec3) -> Option<UVec3> {
+        let margin = VOLUME_MARGIN_VOXELS as f32;
+        let inside = sample_voxel.cmpge(Vec3::splat(-0.5 - margin)).all()
+            && sample_voxel.cmplt(self.extent.as_vec3() - 0.5 + margin).all();
+        let cell = (sample_voxel + 0.5).floor().as_ivec3().max(IVec3::ZERO).as_uvec3();
+        inside.then(|| (cell / self.layout.core()).min(self.counts - 1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_sample_is_owned_by_exactly_one_brick() {
+        let grid = BrickLayout { edge: 16, halo: 2 }.grid(UVec3::new(12, 25, 1));
+        assert_eq!(grid.counts, UVec3::new(1, 3, 1));
+        let around = |seam: f32| [seam.next_down(), seam, seam.next_up()];
+        for y in [-0.501, -0.5, 0.0, 11.5, 23.5, 24.0, 24.5].into_iter().flat_map(around) {
+            let sample = Vec3::new(3.0, y, 0.25);
+            let owners: Vec<UVec3> = (0..grid.len())
+                .map(|index| grid.brick(index))
+                .filter(|&brick| {
+                    let [low, high] = grid.owned_box(brick);
+                    sample.cmpge(low).all() && sample.cmplt(high).all()
+                })
+                .collect();
+            assert_eq!(owners, grid.owner(sample).into_iter().collect::<Vec<_>>(), "y = {y}");
+        }
+    }
+
+    #[test]
+    fn the_index_of_a_brick_goes_there_and_back() {
+        let grid = BrickLayout::default().grid(UVec3::new(512, 304, 1730));
+        assert_eq!(grid.len(), 9 * 6 * 29);
+        for index in [0, 8, 9, 500, grid.len() - 1] {
+            assert_eq!(grid.index(grid.brick(index)), index);
+        }
     }
 }

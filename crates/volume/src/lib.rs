@@ -17,15 +17,38 @@
 //! ```
 
 mod brick_layout;
+mod brick_source;
+mod camera;
+mod footprint;
 mod frame;
+mod frame_plan;
+mod frame_report;
+mod rays;
+mod render_settings;
 mod stored_type;
 mod transfer_function;
+mod visible_bricks;
 mod volume_desc;
 mod volume_reader;
+mod voxel_count_table;
 
 pub use brick_layout::{BrickGrid, BrickId, BrickLayout};
+pub use brick_source::{Brick, BrickSource, Voxels};
+pub use camera::{Camera, CameraBasis, DEFAULT_FOV_Y_DEG, NamedView, Projection};
+pub use footprint::{Footprints, PixelRect};
 pub use frame::Frame;
+pub use frame_plan::{FramePlan, Layer, PlannedBrick, eye_brick};
+pub use frame_report::{BrickCounts, FrameReport, ResidencyCounts, StageTimes};
+pub use rays::{FrameRays, Ray};
+pub use render_settings::{Mode, Phong, RenderSettings, Skip};
 pub use stored_type::StoredType;
-pub use transfer_function::{ControlPoint, TransferFunction};
+pub use transfer_function::{
+    BAKED_ENTRIES, BakedTransferFunction, Band, ControlPoint, TransferFunction, srgb_decode, srgb_encode,
+};
+pub use visible_bricks::{
+    NearlyEmpty, VisibleBricks, all_bricks, boundary_bricks, filtered_visible, is_empty_for,
+    without_nearly_empty,
+};
 pub use volume_desc::{Rescale, VOLUME_MARGIN_VOXELS, VolumeDesc};
 pub use volume_reader::{Endian, FlatPiece, FlatPlacement, ReadError, VolumeReader};
+pub use voxel_count_table::{BandFractions, Bins, BrickRange, VCT_BINS, VoxelCountTable};

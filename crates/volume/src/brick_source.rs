@@ -1,0 +1,71 @@
+use std::sync::Arc;
+
+use crate::{BrickGrid, BrickId, BrickRange, ReadError, VolumeDesc, VoxelCountTable};
+
+/// Where bricks come from. Renderers and residency know nothing else of files.
+pub trait BrickSource: Send + Sync {
+    /// The volume at full resolution.
+    fn desc(&self) -> &VolumeDesc;
+
+    /// How many levels there are; level 0 is full resolution.
+    fn levels(&self) -> u32;
+
+    /// The bricks of a level.
+    fn grid(&self, level: u32) -> BrickGrid;
+
+    /// The range of every brick of a level, by place in the grid. Always at hand.
+    fn ranges(&self, level: u32) -> &[BrickRange];
+
+    /// The voxel-count table of every brick of a level, by place in the grid; made or loaded at first use.
+    ///
+    /// # Errors
+    /// When the voxels or tables cannot be read.
+    fn voxel_count_tables(&self, level: u32) -> Result<Arc<Vec<VoxelCountTable>>, ReadError>;
+
+    /// A brick with its halo.
+    ///
+    /// # Errors
+    /// When it cannot be read; the message names it.
+    fn brick(&self, id: BrickId) -> Result<Arc<Brick>, ReadError>;
+
+    /// Voxels of the volume that are not finite; they are read as 0.
+    fn not_finite(&self) -> u64;
+
+    /// Bytes read from files so far, before decoding.
+    fn bytes_read(&self) -> u64;
+}
+
+/// The voxels of a brick in stored values, halo included: edge³ of them, x fastest, and then
+/// [`Brick::PADDING`] more that mean nothing, so that kernels may read a little beyond.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Brick {
+    /// Voxels along each axis.
+    pub edge: u32,
+    pub voxels: Voxels,
+}
+
+/// Voxels in the type that they are kept in memory in; `u32`, `i32` and `f64` were rounded to `f32`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Voxels {
+    U8(Vec<u8>),
+    I8(Vec<i8>),
+    U16(Vec<u16>),
+    I16(Vec<i16>),
+    F32(Vec<f32>),
+}
+
+impl Brick {
+    /// Elements behind the last voxel.
+    pub const PADDING: usize = 16;
+
+    /// Size in memory, in bytes.
+    pub fn bytes(&self) -> usize {
+        match &self.voxels {
+            Voxels::U8(voxels) => voxels.len(),
+            Voxels::I8(voxels) => voxels.len(),
+            Voxels::U16(voxels) => 2 * voxels.len(),
+            Voxels::I16(voxels) => 2 * voxels.len(),
+            Voxels::F32(voxels) => 4 * voxels.len(),
+        }
+    }
+}
