@@ -1,0 +1,156 @@
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use glassbrick_volume::{
+    Brick, BrickGrid, BrickId, BrickRange, BrickSource, ReadError, VolumeDesc, VoxelCountTable,
+};
+use quick_cache::sync::Cache;
+use quick_cache::{DefaultHashBuilder, Lifecycle, OptionsBuilder, Weighter};
+
+use crate::SourceError;
+use crate::decode::brick_bytes;
+
+/// A source whose bricks are kept in memory up to a byte budget, shared by all threads.
+///
+/// The budget holds the bricks that threads work on as well as those that are kept: each thread holds one brick at
+/// a time.
+pub struct CachedSource<S> {
+    source: S,
+    kept: Cache<BrickId, Arc<Brick>, ByBytes, DefaultHashBuilder, CountEvictions>,
+    evictions: Arc<AtomicU64>,
+    budget_bytes: u64,
+    held_bytes: u64,
+    peak_kept_bytes: AtomicU64,
+    hits: AtomicU64,
+    misses: AtomicU64,
+    load_nanos: AtomicU64,
+}
+
+/// What went through a cache so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CacheCounts {
+    pub budget_bytes: u64,
+    pub peak_bytes: u64,
+    pub hits: u64,
+    pub misses: u64,
+    pub evictions: u64,
+    /// Summed over threads.
+    pub load_time: Duration,
+}
+
+#[derive(Clone)]
+struct ByBytes;
+
+impl Weighter<BrickId, Arc<Brick>> for ByBytes {
+    fn weight(&self, _id: &BrickId, brick: &Arc<Brick>) -> u64 {
+        brick.bytes() as u64
+    }
+}
+
+#[derive(Clone)]
+struct CountEvictions(Arc<AtomicU64>);
+
+impl Lifecycle<BrickId, Arc<Brick>> for CountEvictions {
+    type RequestState = ();
+
+    fn on_evict(&self, _state: &mut (), _id: BrickId, _brick: Arc<Brick>) {
+        self.0.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+impl<S: BrickSource> CachedSource<S> {
+    /// Keeps at most `budget_bytes` of bricks for `threads` threads.
+    ///
+    /// # Errors
+    /// When the budget does not hold a brick for each thread.
+    pub fn new(source: S, budget_bytes: u64, threads: usize) -> Result<Self, SourceError> {
+        let layout = source.grid(0).layout;
+        let one_brick = brick_bytes(source.desc().stored_type, layout.voxels());
+        let held_bytes = one_brick * threads as u64;
+        let Some(kept_bytes) = budget_bytes.checked_sub(held_bytes) else {
+            return Err(SourceError::BudgetTooSmall { budget: budget_bytes, threads, needed: held_bytes });
+        };
+        let evictions = Arc::new(AtomicU64::new(0));
+        let options = OptionsBuilder::new()
+            .shards(1)
+            .estimated_items_capacity((kept_bytes / one_brick).clamp(1, 1 << 20) as usize)
+            .weight_capacity(kept_bytes)
+            .build()
+            .expect("all required options are set");
+        let lifecycle = CountEvictions(Arc::clone(&evictions));
+        Ok(Self {
+            kept: Cache::with_options(options, ByBytes, DefaultHashBuilder::default(), lifecycle),
+            source,
+            evictions,
+            budget_bytes,
+            held_bytes,
+            peak_kept_bytes: AtomicU64::new(0),
+            hits: AtomicU64::new(0),
+            misses: AtomicU64::new(0),
+            load_nanos: AtomicU64::new(0),
+        })
+    }
+
+    /// What went through the cache so far.
+    pub fn counts(&self) -> CacheCounts {
+        let get = |counter: &AtomicU64| counter.load(Ordering::Relaxed);
+        let misses = get(&self.misses);
+        CacheCounts {
+            budget_bytes: self.budget_bytes,
+            peak_bytes: get(&self.peak_kept_bytes) + if misses > 0 { self.held_bytes } else { 0 },
+            hits: get(&self.hits),
+            misses,
+            evictions: get(&self.evictions),
+            load_time: Duration::from_nanos(get(&self.load_nanos)),
+        }
+    }
+}
+
+impl<S: BrickSource> BrickSource for CachedSource<S> {
+    fn desc(&self) -> &VolumeDesc {
+        self.source.desc()
+    }
+
+    fn levels(&self) -> u32 {
+        self.source.levels()
+    }
+
+    fn grid(&self, level: u32) -> BrickGrid {
+        self.source.grid(level)
+    }
+
+    fn ranges(&self, level: u32) -> &[BrickRange] {
+        self.source.ranges(level)
+    }
+
+    fn voxel_count_tables(&self, level: u32) -> Result<Arc<Vec<VoxelCountTable>>, ReadError> {
+        self.source.voxel_count_tables(level)
+    }
+
+    fn brick(&self, id: BrickId) -> Result<Arc<Brick>, ReadError> {
+        let mut missed = false;
+        let brick = self.kept.get_or_insert_with(&id, || {
+            missed = true;
+            let start = Instant::now();
+            let brick = self.source.brick(id);
+            self.load_nanos.fetch_add(start.elapsed().as_nanos() as u64, Ordering::Relaxed);
+            brick
+        })?;
+        if missed {
+            self.misses.fetch_add(1, Ordering::Relaxed);
+            self.peak_kept_bytes.fetch_max(self.kept.weight(), Ordering::Relaxed);
+        } else {
+            self.hits.fetch_add(1, Ordering::Relaxed);
+        }
+        Ok(brick)
+    }
+
+    fn not_finite(&self) -> u64 {
+        self.source.not_finite()
+    }
+
+    fn bytes_read(&self) -> u64 {
+        self.source.bytes_read()
+    }
+}
