@@ -1,1 +1,18 @@
-//! (front door)
+//! The CPU executor: draws a frame plan with the processor, layer by layer, bricks in parallel.
+//!
+//! It takes bricks from any [`BrickSource`](glassbrick_volume::BrickSource) and knows nothing about files or GPUs. Its
+//! scalar code is the truth that other executors are held to.
+//!
+//! The picture is cut into tiles. A thread that draws a brick locks one tile of its footprint after the other,
+//! finds for each ray the samples that the brick owns, and adds them to the ray's pixel. Rays meet at most one brick of
+//! a layer, so the order in which threads come to a tile changes nothing.
+
+mod executor;
+mod exponential;
+mod interval;
+mod look_up;
+mod projector;
+mod sampler;
+mod tiles;
+
+pub use executor::{CpuFrame, CpuScene, draw};
