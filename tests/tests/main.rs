@@ -1,0 +1,5 @@
+//! The tests of glassbrick as a whole, in one binary.
+
+mod analytic_truth;
+mod comparing;
+mod fair_scenes;
