@@ -1,5 +1,5 @@
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why a file cannot be opened or read as a volume. Each message names the file, says what is wrong, and what to do.
 #[derive(Debug, thiserror::Error)]
@@ -15,4 +15,22 @@ pub enum FormatError {
     /// The file or folder is of no format that glassbrick reads.
     #[error("{}: {what}", .path.display())]
     Unknown { path: PathBuf, what: String },
+}
+
+impl FormatError {
+    pub(crate) fn io(path: &Path, source: io::Error) -> Self {
+        Self::Io { path: path.to_owned(), source }
+    }
+
+    pub(crate) fn malformed(path: &Path, what: impl Into<String>) -> Self {
+        Self::Malformed { path: path.to_owned(), what: what.into() }
+    }
+
+    pub(crate) fn unsupported(path: &Path, what: impl Into<String>) -> Self {
+        Self::Unsupported { path: path.to_owned(), what: what.into() }
+    }
+
+    pub(crate) fn unknown(path: &Path, what: impl Into<String>) -> Self {
+        Self::Unknown { path: path.to_owned(), what: what.into() }
+    }
 }

@@ -1,0 +1,126 @@
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::vec;
+
+use bzip2::bufread::MultiBzDecoder;
+use flate2::bufread::{MultiGzDecoder, ZlibDecoder};
+use glassbrick_volume::StoredType;
+
+use super::part::{Encoding, Part};
+use super::text::{HexBytes, TextVoxels};
+use crate::FormatError;
+
+const BUFFER_BYTES: usize = 256 << 10;
+
+/// The decoded voxels of settled parts, one after the other. One file is open at a time.
+pub(crate) struct PartStream {
+    parts: vec::IntoIter<Part>,
+    encoding: Encoding,
+    stored_type: StoredType,
+    current: Option<OpenPart>,
+}
+
+struct OpenPart {
+    part: Part,
+    decoded: Box<dyn BufRead + Send>,
+    bytes_left: u64,
+}
+
+impl PartStream {
+    pub fn new(parts: Vec<Part>, encoding: Encoding, stored_type: StoredType) -> Self {
+        Self { parts: parts.into_iter(), encoding, stored_type, current: None }
+    }
+
+    /// Some of the next voxels, at least one byte.
+    ///
+    /// # Errors
+    /// When there are no more, or they are damaged.
+    pub fn buffer(&mut self) -> Result<&[u8], FormatError> {
+        if self.current.as_ref().is_none_or(|current| current.bytes_left == 0) {
+            self.current = Some(self.open_next()?);
+        }
+        let current = self.current.as_mut().expect("a part was opened above");
+        current.fill(self.encoding)
+    }
+
+    /// Passes over so many bytes of what `buffer` gave.
+    pub fn consume(&mut self, bytes: usize) {
+        if let Some(current) = &mut self.current {
+            current.decoded.consume(bytes);
+            current.bytes_left -= bytes as u64;
+        }
+    }
+
+    fn open_next(&mut self) -> Result<OpenPart, FormatError> {
+        let Some(part) = self.parts.next() else {
+            unreachable!("the parts hold all bytes of the volume, and no more are asked for");
+        };
+        let mut decoded = decode(&part, self.encoding, self.stored_type)
+            .map_err(|error| read_error(&part, self.encoding, 0, error))?;
+        skip(&mut decoded, part.skip_decoded).map_err(|error| read_error(&part, self.encoding, 0, error))?;
+        let bytes_left = part.bytes;
+        Ok(OpenPart { part, decoded, bytes_left })
+    }
+}
+
+impl OpenPart {
+    fn fill(&mut self, encoding: Encoding) -> Result<&[u8], FormatError> {
+        let found = self.part.bytes - self.bytes_left;
+        let failed = |error| read_error(&self.part, encoding, found, error);
+        let wanted = usize::try_from(self.bytes_left).unwrap_or(usize::MAX);
+        loop {
+            match self.decoded.fill_buf() {
+                Ok([]) => return Err(failed(io::ErrorKind::UnexpectedEof.into())),
+                Ok(_) => break,
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(failed(error)),
+            }
+        }
+        // This gives the same bytes again; borrowing them above would hold `self` through the loop.
+        let bytes = self.decoded.fill_buf().map_err(failed)?;
+        Ok(&bytes[..bytes.len().min(wanted)])
+    }
+}
+
+fn decode(part: &Part, encoding: Encoding, stored_type: StoredType) -> io::Result<Box<dyn BufRead + Send>> {
+    let mut file = File::open(&part.path)?;
+    file.seek(SeekFrom::Start(part.offset_bytes()))?;
+    let mut file = BufReader::with_capacity(BUFFER_BYTES, file);
+    fn buffered(decoder: impl Read + Send + 'static) -> Box<dyn BufRead + Send> {
+        Box::new(BufReader::with_capacity(BUFFER_BYTES, decoder))
+    }
+    Ok(match encoding {
+        Encoding::Raw => Box::new(file),
+        Encoding::Deflate => match file.fill_buf()? {
+            [0x1f, 0x8b, ..] => buffered(MultiGzDecoder::new(file)),
+            _ => buffered(ZlibDecoder::new(file)),
+        },
+        Encoding::Bzip2 => buffered(MultiBzDecoder::new(file)),
+        Encoding::Text => buffered(TextVoxels::new(file, stored_type)),
+        Encoding::Hex => buffered(HexBytes::new(file)),
+    })
+}
+
+fn skip(decoded: &mut dyn BufRead, bytes: u64) -> io::Result<()> {
+    let skipped = io::copy(&mut decoded.take(bytes), &mut io::sink())?;
+    if skipped < bytes { Err(io::ErrorKind::UnexpectedEof.into()) } else { Ok(()) }
+}
+
+fn read_error(part: &Part, encoding: Encoding, found: u64, error: io::Error) -> FormatError {
+    let expected = part.bytes;
+    match error.kind() {
+        io::ErrorKind::UnexpectedEof => FormatError::malformed(
+            &part.path,
+            format!("the voxels end after {found} of {expected} bytes; the file is cut short, get it anew"),
+        ),
+        io::ErrorKind::InvalidData | io::ErrorKind::InvalidInput => FormatError::malformed(
+            &part.path,
+            format!("the {} data is damaged after {found} of {expected} bytes: {error}", encoding.name()),
+        ),
+        _ if encoding == Encoding::Bzip2 => FormatError::malformed(
+            &part.path,
+            format!("the bzip2 data is damaged after {found} of {expected} bytes: {error}"),
+        ),
+        _ => FormatError::io(&part.path, error),
+    }
+}
