@@ -1,0 +1,1 @@
+//! Whole series, written by another implementation of DICOM, as volumes.
