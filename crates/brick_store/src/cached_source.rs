@@ -92,6 +92,11 @@ impl<S: BrickSource> CachedSource<S> {
         })
     }
 
+    /// Where the bricks come from.
+    pub fn source(&self) -> &S {
+        &self.source
+    }
+
     /// What went through the cache so far.
     pub fn counts(&self) -> CacheCounts {
         let get = |counter: &AtomicU64| counter.load(Ordering::Relaxed);

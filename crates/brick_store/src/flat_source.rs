@@ -1,5 +1,6 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
 
 use glam::UVec3;
 use glassbrick_volume::{
@@ -22,6 +23,7 @@ pub struct FlatSource {
     scan: RangeScan,
     tables: OnceLock<Arc<Vec<VoxelCountTable>>>,
     bytes_read: AtomicU64,
+    scan_time: Duration,
 }
 
 impl FlatSource {
@@ -62,9 +64,16 @@ impl FlatSource {
 
     fn scanned(desc: VolumeDesc, voxels: FlatVoxels, layout: BrickLayout) -> Self {
         let grid = layout.grid(desc.extent);
+        let start = Instant::now();
         let scan = scan_ranges(&desc, &voxels, &grid);
+        let scan_time = start.elapsed();
         let bytes_read = AtomicU64::new(if voxels.is_mapped() { desc.bytes() } else { 0 });
-        Self { desc, voxels, grid, scan, tables: OnceLock::new(), bytes_read }
+        Self { desc, voxels, grid, scan, tables: OnceLock::new(), bytes_read, scan_time }
+    }
+
+    /// How long the scan for ranges took.
+    pub fn scan_time(&self) -> Duration {
+        self.scan_time
     }
 
     fn count_read(&self, bytes: u64) {

@@ -1,1 +1,54 @@
-//! (front door)
+//! glassbrick renders volumes too large to fit.
+//!
+//! It cuts a volume into bricks, knows what a transfer function can see of each, draws what is visible, and reports
+//! with every picture what was drawn and what was skipped. This crate is what programs depend on:
+//! [`Volume::open`] → [`Volume::render`] → [`Rendered`], and [`write_picture`] to keep it.
+//!
+//! ```
+//! use glam::UVec3;
+//! use glassbrick::{Camera, NamedView, OpenSettings, RenderRequest, StoredType, Volume, VolumeDesc, preset};
+//!
+//! let desc = VolumeDesc::new(UVec3::splat(32), StoredType::U8);
+//! let ramp: Vec<u8> = (0..32 * 32 * 32).map(|voxel| (voxel / 1024 * 8) as u8).collect();
+//! let volume = Volume::from_array(desc, ramp, &OpenSettings::default())?;
+//!
+//! let grey = preset("grey", volume.value_range()).expect("grey is a preset");
+//! let camera = Camera::framing(volume.desc(), NamedView::Front);
+//! let picture = volume.render(RenderRequest { size: [64, 64], ..RenderRequest::new(grey) }, &camera)?;
+//! assert!(picture.report.complete && picture.report.bricks.rendered == 1);
+//! # Ok::<(), glassbrick::Error>(())
+//! ```
+
+mod auto_transfer_function;
+mod camera_file;
+mod encode;
+mod error;
+mod histogram;
+mod presets;
+mod process_memory;
+mod renderer;
+mod report_json;
+mod settings_file;
+mod transfer_function_file;
+mod volume;
+
+pub use auto_transfer_function::auto_transfer_function;
+pub use camera_file::read_camera;
+pub use encode::{
+    AnimationDesc, AnimationFormat, AnimationWriter, Background, OutputFormat, PictureFormat, check_output,
+    write_picture,
+};
+pub use error::Error;
+pub use glassbrick_formats::{OpenOptions, RawLayout};
+pub use glassbrick_volume::{
+    Band, BrickCounts, BrickLayout, BrickSource, Camera, ControlPoint, Endian, Frame, FrameReport, Mode,
+    NamedView, NearlyEmpty, Phong, Projection, RenderSettings, Rescale, ResidencyCounts, Skip, StageTimes,
+    StoredType, TransferFunction, VolumeDesc, filtered_visible, without_nearly_empty,
+};
+pub use histogram::Histogram;
+pub use presets::{PRESETS, Preset, preset};
+pub use process_memory::{MemoryPeaks, peaks as memory_peaks};
+pub use renderer::{LevelChoice, RenderRequest, Rendered, Renderer};
+pub use report_json::report_json;
+pub use transfer_function_file::read_transfer_function;
+pub use volume::{OpenSettings, Volume};

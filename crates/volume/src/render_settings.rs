@@ -59,7 +59,7 @@ pub struct RenderSettings {
     /// Applies to [`Mode::Dvr`].
     pub shading: Option<Phong>,
     /// A ray stops after the first sample at which its opacity reaches this; 1 never stops.
-    pub opacity_cutoff: f32,
+    pub opacity_cutoff: f64,
     pub skip: Skip,
 }
 
@@ -75,7 +75,7 @@ impl RenderSettings {
         if self.skip == Skip::None || self.opacity_cutoff >= 1.0 {
             f32::INFINITY
         } else {
-            self.opacity_cutoff
+            self.opacity_cutoff as f32
         }
     }
 }
