@@ -15,6 +15,9 @@ pub(crate) fn has_time(space: &str) -> bool {
 pub(crate) fn read(header: &Header, axes: &Axes, notes: &mut Vec<String>) -> Result<Grid, String> {
     let (columns, origin) = match header.words("spacedirections", axes.sizes.len())? {
         Some(directions) => {
+            if header.field("space").is_none() {
+                notes.push("the header does not name its space; it is taken as LPS".to_owned());
+            }
             let lps_from_world = lps_from_world(header, notes)?;
             let columns = from_directions(header, axes, &directions, notes)?;
             let origin = match header.field("spaceorigin") {
