@@ -10,10 +10,10 @@ use crate::Error;
 
 const MAX_BYTES: u64 = 16 << 20;
 
-/// Reads a JSON file as `T`.
+/// Reads a JSON object from a file as `T`.
 ///
 /// # Errors
-/// When it cannot be read, is longer than 16 MiB, or is not a `T`.
+/// When it cannot be read, is longer than 16 MiB, or is no object such as `T`.
 pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Error> {
     let fail = |source| Error::Read { path: path.to_owned(), source };
     let mut json = Vec::new();
@@ -22,6 +22,9 @@ pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Error> {
         return Err(settings_error(path, "is longer than 16 MiB; is it the right file?"));
     }
     let text = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&json);
+    if text.trim_ascii_start().first() != Some(&b'{') {
+        return Err(settings_error(path, "is not a JSON object; is it the right file?"));
+    }
     serde_json::from_slice(text).map_err(|error| settings_error(path, error))
 }
 
@@ -33,19 +36,23 @@ pub fn settings_error(path: &Path, what: impl ToString) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::HashMap;
     use std::fs;
 
     #[test]
-    fn files_that_are_too_long_missing_or_folders_are_refused() {
+    fn files_that_are_too_long_missing_folders_or_no_objects_are_refused() {
         let folder = tempfile::tempdir().expect("a scratch folder");
         let long = folder.path().join("long.json");
         fs::write(&long, vec![b' '; (16 << 20) + 1]).expect("a scratch file");
+        let list = folder.path().join("list.json");
+        fs::write(&list, "[1,2]").expect("a scratch file");
         for (path, word) in [
             (long, "longer than 16 MiB"),
+            (list, "not a JSON object"),
             (folder.path().join("none.json"), "cannot be read"),
             (folder.path().to_owned(), "cannot be read"),
         ] {
-            let error = read_json::<Vec<u8>>(&path).expect_err("refused").to_string();
+            let error = read_json::<HashMap<String, u8>>(&path).expect_err("refused").to_string();
             assert!(error.contains(word) && error.contains(&*path.to_string_lossy()), "{error}");
         }
     }
@@ -54,7 +61,8 @@ mod tests {
     fn a_byte_order_mark_is_no_harm() {
         let folder = tempfile::tempdir().expect("a scratch folder");
         let path = folder.path().join("marked.json");
-        fs::write(&path, b"\xef\xbb\xbf[1,2]").expect("a scratch file");
-        assert_eq!(read_json::<Vec<u8>>(&path).expect("it is JSON"), [1, 2]);
+        fs::write(&path, b"\xef\xbb\xbf {\"a\":1}").expect("a scratch file");
+        let object: HashMap<String, u8> = read_json(&path).expect("it is JSON");
+        assert_eq!(object["a"], 1);
     }
 }

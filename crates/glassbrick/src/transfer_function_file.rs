@@ -7,14 +7,14 @@ use crate::Error;
 use crate::settings_file::{read_json, settings_error};
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object with points and, if wanted, unit")]
 struct FunctionInFile {
     points: Vec<PointInFile>,
     unit: Option<f64>,
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a point with value, color and opacity")]
 struct PointInFile {
     value: f64,
     color: [f64; 3],
@@ -104,8 +104,10 @@ mod tests {
     fn what_is_wrong_is_named_in_one_line() {
         let point = |fields: &str| format!(r#"{{"points":[{{{fields}}}]}}"#);
         for (json, words) in [
-            (String::new(), "EOF"),
-            ("[]".to_owned(), "missing field `points`"),
+            (String::new(), "not a JSON object"),
+            ("{".to_owned(), "EOF"),
+            (r#"{"points":[1]}"#.to_owned(), "expected a point with value, color and opacity at line 1"),
+            ("{}".to_owned(), "missing field `points`"),
             (r#"{"points":[]}"#.to_owned(), "points is empty"),
             (point(r#""value":1,"color":[0,0,0]"#), "missing field `opacity`"),
             (point(r#""value":1,"color":[0,0,0],"opacity":0,"alpha":1"#), "unknown field `alpha`"),

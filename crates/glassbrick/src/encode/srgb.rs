@@ -15,7 +15,7 @@ static TABLE: LazyLock<EncodeTable> = LazyLock::new(|| EncodeTable {
     code: std::array::from_fn(|step| encode_exactly(step as f64 / STEPS as f64)),
     next_code_from: std::array::from_fn(|code| match code {
         255 => f32::INFINITY,
-        _ => decode((code as f64 + 0.5) / 255.0) as f32,
+        _ => round_up(decode((code as f64 + 0.5) / 255.0)),
     }),
 });
 
@@ -36,6 +36,12 @@ pub fn linear_from_srgb(code: u8) -> f32 {
 /// 0..1 to 0..255, clamped and rounded to nearest; what is not a number is 0.
 pub fn unit_to_u8(value: f32) -> u8 {
     (value.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+/// The smallest `f32` that is not below.
+fn round_up(value: f64) -> f32 {
+    let nearest = value as f32;
+    if f64::from(nearest) < value { nearest.next_up() } else { nearest }
 }
 
 fn encode_exactly(linear: f64) -> u8 {

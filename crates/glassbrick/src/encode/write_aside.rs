@@ -24,12 +24,8 @@ impl AsideFile {
     /// When `path` could not be replaced at the end, or its folder takes no file.
     pub fn create(path: &Path) -> Result<Self, Error> {
         let target = check_target(path)?;
-        let aside = target.with_file_name(aside_name());
-        let file = OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(&aside)
-            .map_err(|source| Error::Write { path: path.to_owned(), source })?;
+        let (aside, file) =
+            create_beside(&target).map_err(|source| Error::Write { path: path.to_owned(), source })?;
         let aside_file = Self { named: path.to_owned(), target, aside, file };
         if let Ok(old) = fs::metadata(&aside_file.target) {
             aside_file.file.set_permissions(old.permissions()).map_err(|source| aside_file.error(source))?;
@@ -114,10 +110,18 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// A hidden name that no other writer of this machine takes in the meantime.
-fn aside_name() -> String {
+/// A file of a hidden name that is nobody else's: not another writer's, nor left over from one that was killed.
+fn create_beside(target: &Path) -> io::Result<(PathBuf, File)> {
     static COUNTER: AtomicU64 = AtomicU64::new(0);
-    format!(".glassbrick-{}-{}.part", process::id(), COUNTER.fetch_add(1, Ordering::Relaxed))
+    loop {
+        let number = COUNTER.fetch_add(1, Ordering::Relaxed);
+        let aside = target.with_file_name(format!(".glassbrick-{}-{number}.part", process::id()));
+        match OpenOptions::new().write(true).create_new(true).open(&aside) {
+            Ok(file) => return Ok((aside, file)),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -185,6 +189,18 @@ mod tests {
             let error = AsideFile::create(&path).err().expect("refused").to_string();
             assert!(error.contains(word) && error.contains(&*path.to_string_lossy()), "{error}");
         }
+    }
+
+    #[test]
+    fn what_a_killed_writer_left_is_no_hindrance() {
+        let folder = tempfile::tempdir().expect("a scratch folder");
+        for number in 0..100 {
+            let left = folder.path().join(format!(".glassbrick-{}-{number}.part", process::id()));
+            fs::write(left, "half").expect("a scratch file");
+        }
+        let path = folder.path().join("out.png");
+        write_aside(&path, |writer| writer.write_all(b"next")).expect("it can be written");
+        assert_eq!(names_in(folder.path()).len(), 101);
     }
 
     #[cfg(unix)]
