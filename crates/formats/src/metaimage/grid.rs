@@ -29,6 +29,10 @@ pub(crate) fn read(header: &Header, dimensions: usize, notes: &mut Vec<String>) 
         notes.push("this is a single image; its thickness is taken as 1 mm".to_owned());
     }
     let millimetres = millimetres(header)?;
+    if millimetres != 1.0 {
+        notes
+            .push(format!("lengths are in {} by DistanceUnits", header.field("DistanceUnits").unwrap_or("")));
+    }
     spacing *= millimetres;
     let origin = in_space(&origin, 0.0) * millimetres;
     Grid::from_columns(direction * DMat3::from_diagonal(spacing), origin)

@@ -138,6 +138,9 @@ impl VolumeReader for VoxelReader {
         }
         self.read_step(out)?;
         self.slices_left -= slices;
+        if self.slices_left == 0 {
+            self.stream.check_end()?;
+        }
         if self.swapped {
             swap_bytes(out, self.desc.stored_type.bytes());
         }

@@ -30,6 +30,7 @@ impl Steps {
         let index = u64::from(time.unwrap_or(0));
         if index >= count {
             let what = match count {
+                0 => "the header claims no volume at all; it is damaged".to_owned(),
                 1 => format!("there is no time step {index}: the file holds one volume; leave --time away"),
                 _ => format!("there is no time step {index}: --time may be 0 to {}", count - 1),
             };
@@ -79,6 +80,7 @@ mod tests {
     fn a_step_that_is_not_there_is_refused() {
         let mut notes = Vec::new();
         let mut choose = |count, time| Steps::choose(Path::new("a"), count, 8, time, &mut notes);
+        assert!(choose(0, None).unwrap_err().to_string().contains("no volume"));
         assert!(choose(1, Some(1)).unwrap_err().to_string().contains("one volume"));
         assert!(choose(3, Some(3)).unwrap_err().to_string().contains("0 to 2"));
         assert_eq!(choose(1, Some(0)).unwrap().count, 1);

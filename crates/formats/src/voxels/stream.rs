@@ -37,6 +37,7 @@ impl PartStream {
     /// When there are no more, or they are damaged.
     pub fn buffer(&mut self) -> Result<&[u8], FormatError> {
         if self.current.as_ref().is_none_or(|current| current.bytes_left == 0) {
+            self.check_end()?;
             self.current = Some(self.open_next()?);
         }
         let current = self.current.as_mut().expect("a part was opened above");
@@ -48,6 +49,27 @@ impl PartStream {
         if let Some(current) = &mut self.current {
             current.decoded.consume(bytes);
             current.bytes_left -= bytes as u64;
+        }
+    }
+
+    /// Checks the sum that may follow the last voxel of a part; to be called at the end of what is read.
+    ///
+    /// # Errors
+    /// When the voxels read are not those that were written.
+    pub fn check_end(&mut self) -> Result<(), FormatError> {
+        let Some(current) = self.current.as_mut().filter(|current| current.bytes_left == 0) else {
+            return Ok(());
+        };
+        match current.decoded.fill_buf() {
+            // What follows the stream, such as padding, has no header of a stream and does not matter.
+            Err(error)
+                if matches!(self.encoding, Encoding::Deflate | Encoding::Bzip2)
+                    && error.kind() != io::ErrorKind::UnexpectedEof
+                    && !error.to_string().contains("header") =>
+            {
+                Err(read_error(&current.part, self.encoding, current.part.bytes, error))
+            }
+            _ => Ok(()),
         }
     }
 

@@ -35,7 +35,7 @@ impl<R: BufRead> TextVoxels<R> {
                 break;
             }
             if word.len() > LONGEST_NUMBER {
-                break;
+                return Err(invalid(format!("voxel {} has over {LONGEST_NUMBER} digits", self.numbers)));
             }
         }
         if word.is_empty() {
