@@ -115,7 +115,7 @@ struct March<'a> {
 
 impl<'a> March<'a> {
     fn new(scene: &'a ReferenceScene<'a>) -> Self {
-        assert_eq!(scene.voxels.len(), scene.extent.iter().product(), "voxels fill the extent");
+        assert_eq!(scene.voxels.len(), scene.extent.iter().product::<usize>(), "voxels fill the extent");
         let smallest_spacing = scene.smallest_spacing();
         let spacing = DMat3::from_diagonal(DVec3::from_array(scene.spacing));
         let world_from_voxel = DMat3::from_cols_array_2d(&scene.direction) * spacing;
