@@ -60,7 +60,17 @@ pub(crate) fn open(
         Encoding::Raw => (layout.offset_bytes, 0),
         _ => (0, layout.offset_bytes),
     };
-    let follow = file_bytes.saturating_sub(layout.offset_bytes.saturating_add(desc.bytes()));
+    let needed = layout.offset_bytes.saturating_add(desc.bytes());
+    if encoding == Encoding::Raw && file_bytes < needed {
+        return Err(malformed(format!(
+            "{extent_name} voxels of {type_name} from byte {offset} on need {needed} bytes, but the file has \
+             {file_bytes}; check --extent, --dtype and --offset",
+            extent_name = extent.to_array().map(|size| size.to_string()).join("x"),
+            type_name = layout.stored_type,
+            offset = layout.offset_bytes,
+        )));
+    }
+    let follow = file_bytes.saturating_sub(needed);
     if encoding == Encoding::Raw && follow > 0 {
         notes.push(format!(
             "{follow} bytes follow the voxels; check --extent, --dtype and --offset if that is odd"

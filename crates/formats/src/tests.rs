@@ -152,7 +152,10 @@ fn raw_voxels_are_read_as_the_user_says() {
 fn a_raw_file_too_short_or_a_layout_without_sense_is_refused() {
     let folder = Folder::new();
     let path = folder.write("a.raw", [0; 28]);
-    assert!(refusal(&path, &raw_options(raw_layout())).contains("ends after 23"));
+    assert!(
+        refusal(&path, &raw_options(raw_layout()))
+            .contains("2x2x3 voxels of i16 from byte 5 on need 29 bytes, but the file has 28")
+    );
     for layout in [
         RawLayout { extent: UVec3::ZERO, ..raw_layout() },
         RawLayout { extent: UVec3::MAX, ..raw_layout() },
