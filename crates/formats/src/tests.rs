@@ -167,6 +167,7 @@ fn a_raw_file_too_short_or_a_layout_without_sense_is_refused() {
     ] {
         refusal(&path, &raw_options(layout));
     }
+    let path = folder.write("a.raw", [0; 29]);
     assert!(
         refusal(&path, &OpenOptions { time: Some(1), ..raw_options(raw_layout()) }).contains("one volume")
     );
