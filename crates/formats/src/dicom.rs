@@ -61,7 +61,7 @@ pub(crate) fn open_path(
     };
     let images = gathered.images;
     if !is_folder && slices.iter().any(|slice| slice.image != 0) {
-        notes.push(format!("the {} files of the same series beside it are read with it", slices.len() - 1));
+        notes.push(format!("the files of its series beside it are read with it: {} in all", slices.len()));
     }
     let steps =
         steps::steps(&images, slices, &mut notes).map_err(|what| FormatError::unsupported(path, what))?;
@@ -87,7 +87,7 @@ fn choose_step(
     let count = steps.len();
     if wanted >= count {
         let what =
-            format!("has {count} time steps, 0 to {}; there is no step {wanted}", count.saturating_sub(1));
+            format!("has no time step {wanted}; the last of its {count} is {}", count.saturating_sub(1));
         return Err(FormatError::unsupported(path, what));
     }
     let step = steps.swap_remove(wanted);

@@ -11,12 +11,15 @@ pub(super) type Parsed<T> = Result<T, String>;
 /// Most headers fit, so that one read is enough for a file.
 const BUFFER_BYTES: usize = 16 * 1024;
 
+/// No file inflates to more: the length of its voxels is a number of 32 bits.
+const MAX_INFLATED_BYTES: u64 = 5 << 30;
+
 /// A front-to-back reader that knows where it is and how much there is.
 pub(super) struct ByteStream {
     source: Source,
     position: u64,
-    /// Where the file ends; not known of deflated bytes.
-    end: Option<u64>,
+    /// Where the file ends; the most that deflated bytes may become.
+    end: u64,
 }
 
 enum Source {
@@ -27,7 +30,7 @@ enum Source {
 impl ByteStream {
     pub(super) fn new(file: File, file_bytes: u64) -> Self {
         let source = Source::Plain(BufReader::with_capacity(BUFFER_BYTES, file));
-        Self { source, position: 0, end: Some(file_bytes) }
+        Self { source, position: 0, end: file_bytes }
     }
 
     /// What follows from here is deflated; positions count the inflated bytes from 0.
@@ -38,7 +41,7 @@ impl ByteStream {
             }
             deflated @ Source::Deflated(_) => deflated,
         };
-        Self { source, position: 0, end: None }
+        Self { source, position: 0, end: MAX_INFLATED_BYTES }
     }
 
     pub(super) fn position(&self) -> u64 {
@@ -106,10 +109,7 @@ impl ByteStream {
     }
 
     fn check(&self, bytes: u64) -> Parsed<()> {
-        match self.end {
-            Some(end) if bytes > end.saturating_sub(self.position) => Err(self.cut_off()),
-            _ => Ok(()),
-        }
+        if bytes > self.end.saturating_sub(self.position) { Err(self.cut_off()) } else { Ok(()) }
     }
 
     fn reader(&mut self) -> &mut dyn Read {

@@ -1,5 +1,6 @@
 //! Which frames belong to one volume, and which of several volumes is meant.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use super::frame_info::{FrameInfo, Orientation};
@@ -27,25 +28,30 @@ impl Slice {
 /// file stands for itself.
 pub(super) fn candidates(images: &[Image]) -> Vec<Vec<Slice>> {
     let mut candidates: Vec<Vec<Slice>> = Vec::new();
+    let mut of_series: HashMap<&str, Vec<usize>> = HashMap::new();
     for (index, image) in images.iter().enumerate() {
         let slices = (0..image.frames.len()).map(|frame| Slice { image: index, frame });
-        let joins = |candidate: &&mut Vec<Slice>| {
-            let first = candidate[0];
+        let of_series = of_series.entry(image.series.uid.as_str()).or_default();
+        let joins = |candidate: &usize| {
+            let first = candidates[*candidate][0];
             let other = &images[first.image];
             let single = image.frames.len() == 1 && other.frames.len() == 1;
             single && same_kind(image, other) && same_grid(&image.frames[0], first.info(images))
         };
-        match candidates.iter_mut().find(joins) {
-            Some(candidate) => candidate.extend(slices),
-            None => candidates.push(slices.collect()),
+        match of_series.iter().copied().find(joins) {
+            Some(candidate) => candidates[candidate].extend(slices),
+            None => {
+                of_series.push(candidates.len());
+                candidates.push(slices.collect());
+            }
         }
     }
     candidates
 }
 
+/// Whether two images of one series can be slices of one volume.
 fn same_kind(one: &Image, other: &Image) -> bool {
-    one.series.uid == other.series.uid
-        && (one.columns, one.rows, one.format) == (other.columns, other.rows, other.format)
+    (one.columns, one.rows, one.format) == (other.columns, other.rows, other.format)
         && one.is_localizer == other.is_localizer
 }
 
@@ -90,14 +96,14 @@ pub(super) fn only_volume(
     let slices = candidates.swap_remove(chosen);
     let left: usize = candidates.iter().map(Vec::len).sum();
     if left > 0 {
-        notes.push(format!("{left} scouts or single images beside the volume are not read"));
+        notes.push(format!("beside the volume, scouts or single images are not read: {left}"));
     }
     if gathered.others > 0 {
-        notes.push(format!("{} DICOM files without an image are not read", gathered.others));
+        notes.push(format!("DICOM files without an image, which are not read: {}", gathered.others));
     }
     if let Some(error) = gathered.refused.first() {
         notes.push(format!(
-            "{} DICOM files are passed over, the first because {error}",
+            "DICOM files that are passed over: {}, the first because {error}",
             gathered.refused.len()
         ));
     }

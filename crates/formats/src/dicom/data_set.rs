@@ -6,8 +6,10 @@ use super::tag::{self, Tag};
 
 /// Deeper nesting than any real file has.
 const MAX_DEPTH: usize = 32;
-/// No value that is kept is longer: an offset for each of 100,000 frames.
-const MAX_VALUE_BYTES: u32 = 4 << 20;
+/// A longer value of an element that is kept is damaged, and skipped.
+const MAX_VALUE_BYTES: u32 = 4096;
+/// The same for an element with a number for each frame.
+const MAX_VECTOR_BYTES: u32 = 4 << 20;
 
 /// Data elements of one level.
 #[derive(Clone, Debug, Default)]
@@ -77,6 +79,13 @@ impl DataSet {
         self.find(tag).is_some()
     }
 
+    /// Adds an element; of several with one tag the first holds.
+    fn add(&mut self, tag: Tag, value: Value) {
+        if !self.has(tag) {
+            self.elements.push((tag, value));
+        }
+    }
+
     fn find(&self, tag: Tag) -> Option<&Value> {
         self.elements.iter().find(|(kept, _)| *kept == tag).map(|(_, value)| value)
     }
@@ -132,16 +141,20 @@ fn read_element(
         (Some(vr), _) if vr == *b"SQ" => {
             let inner = if header.vr == Some(*b"UN") { Encoding::IMPLICIT } else { encoding };
             let items = read_items(stream, inner, header.length, depth + 1)?;
-            out.elements.push((header.tag, Value::Items(items)));
+            out.add(header.tag, Value::Items(items));
         }
-        (Some(vr), Some(bytes)) if bytes <= MAX_VALUE_BYTES => {
+        (Some(vr), Some(bytes)) if bytes <= most_bytes(header.tag) => {
             let value = decode(vr, &stream.take(bytes.into())?, encoding);
-            out.elements.push((header.tag, value));
+            out.add(header.tag, value);
         }
         (_, Some(bytes)) => stream.skip(bytes.into())?,
         (_, None) => skip_to_delimiter(stream, encoding, header)?,
     }
     Ok(())
+}
+
+fn most_bytes(tag: Tag) -> u32 {
+    if tag::is_vector(tag) { MAX_VECTOR_BYTES } else { MAX_VALUE_BYTES }
 }
 
 fn read_items(

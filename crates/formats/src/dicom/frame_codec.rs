@@ -41,6 +41,19 @@ pub(super) fn decode_frame(image: &Image, frame: usize, fragments: &Fragments, o
     Ok(())
 }
 
+/// Checks the header of an encoded frame, so that one that cannot be decoded is refused before any is.
+pub(super) fn check_frame(image: &Image, fragments: &Fragments) -> Parsed<()> {
+    let (columns, rows) = (image.columns, image.rows);
+    match image.transfer_syntax.coding {
+        FrameCoding::Jpeg => {
+            let encoded = read_fragments(image, fragments)?;
+            guarded(|| jpeg::check(&encoded, columns, rows))
+        }
+        FrameCoding::Jpeg2000 => jpeg2000::check(&read_fragments(image, fragments)?, columns, rows).map(drop),
+        FrameCoding::Native | FrameCoding::Rle | FrameCoding::Unknown(_) => Ok(()),
+    }
+}
+
 /// Reads an uncompressed frame into this machine's byte order, its bits as they are.
 pub(super) fn read_voxels(image: &Image, frame: usize, out: &mut [u8]) -> Parsed<()> {
     let offset = image.frame_bytes() * frame as u64;

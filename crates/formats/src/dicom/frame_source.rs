@@ -1,5 +1,6 @@
 //! Where in its file each frame lies.
 
+use std::collections::HashSet;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 
@@ -12,6 +13,9 @@ use super::transfer_syntax::FrameCoding;
 
 /// Where an encoded frame's bytes lie: offset and size of each fragment.
 pub(super) type Fragments = Vec<(u64, u32)>;
+
+/// More fragments than any real file has.
+const MAX_FRAGMENTS: usize = 1 << 20;
 
 /// Finds the fragments of each of an image's frames.
 pub(super) fn find_fragments(image: &Image) -> Parsed<Vec<Fragments>> {
@@ -34,6 +38,9 @@ pub(super) fn find_fragments(image: &Image) -> Parsed<Vec<Fragments>> {
     while !stream.at_end()? {
         let header = read_header(&mut stream, Encoding::EXPLICIT)?;
         let (Tag::ITEM, Some(bytes)) = (header.tag, header.length) else { break };
+        if fragments.len() == MAX_FRAGMENTS {
+            return Err(format!("has more than {MAX_FRAGMENTS} fragments"));
+        }
         fragments.push((stream.position(), bytes));
         stream.skip(bytes.into())?;
     }
@@ -57,6 +64,7 @@ fn group_by_frame(
     }
     let starts: Vec<bool> = if table.len() == frames {
         // An offset leads to the fragment's item, eight bytes before its value.
+        let table: HashSet<u64> = table.iter().copied().collect();
         fragments.iter().map(|(offset, _)| table.contains(&(offset - 8 - first_item))).collect()
     } else {
         let file = File::open(&image.path).map_err(|error| error.to_string())?;

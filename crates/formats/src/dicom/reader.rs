@@ -6,7 +6,7 @@ use glassbrick_volume::{Endian, FlatPiece, FlatPlacement, ReadError, StoredType,
 use rayon::prelude::*;
 
 use super::candidate::Slice;
-use super::frame_codec::{decode_frame, read_voxels};
+use super::frame_codec::{check_frame, decode_frame, read_voxels};
 use super::frame_source::{Fragments, find_fragments};
 use super::image::Image;
 use super::transfer_syntax::FrameCoding;
@@ -50,6 +50,7 @@ impl DicomReader {
             placement: OnceLock::new(),
         };
         reader.check_compression()?;
+        reader.check_first_frame()?;
         Ok(reader)
     }
 
@@ -71,6 +72,16 @@ impl DicomReader {
             return Err(FormatError::malformed(&first.path, what));
         }
         Ok(())
+    }
+
+    /// Refuses a volume whose first slice is coded in a way that is not decoded.
+    fn check_first_frame(&self) -> Result<(), FormatError> {
+        let first = self.slices[0];
+        let image = &self.images[first.image];
+        let checked = self.fragments[first.image]
+            .get(first.frame)
+            .map_or(Ok(()), |fragments| check_frame(image, fragments));
+        checked.map_err(|what| FormatError::malformed(&image.path, what))
     }
 
     fn read_slice(&self, slice: Slice, out: &mut [u8]) -> Result<(), ReadError> {

@@ -25,13 +25,16 @@ pub(super) fn describe(images: &[Image], slices: &[Slice], notes: &mut Vec<Strin
     }
     let step_mm = match &positions {
         Some(positions) => step_of_positions(positions, normal, infos[0].pixel_spacing_mm, notes),
-        None => step_of_locations(&infos, notes).map(|spacing| normal * spacing),
+        None => {
+            let order = if image.frames.len() > 1 { "as the file counts them" } else { "by InstanceNumber" };
+            step_of_locations(&infos, order, notes).map(|spacing| normal * spacing)
+        }
     };
     let step_mm = step_mm.unwrap_or_else(|| {
         let claimed = infos[0].claimed_spacing_mm.unwrap_or(1.0);
-        notes.push(format!(
-            "nothing but the header's own claim says how thick a slice is; {claimed} mm is taken"
-        ));
+        let source =
+            if infos[0].claimed_spacing_mm.is_some() { "only the header's claim" } else { "nothing" };
+        notes.push(format!("{source} says how far apart slices lie; {claimed} mm is taken"));
         normal * claimed
     });
     let rescale = infos[0].rescale;
@@ -85,12 +88,12 @@ fn step_of_positions(
 }
 
 /// The mean distance of slices without positions, from `SliceLocation` where there is one.
-fn step_of_locations(infos: &[&FrameInfo], notes: &mut Vec<String>) -> Option<f64> {
+fn step_of_locations(infos: &[&FrameInfo], numbered: &str, notes: &mut Vec<String>) -> Option<f64> {
     let located: Option<Vec<f64>> = infos.iter().map(|info| info.location_mm).collect();
     let located = located.filter(|all| all.len() > 1 && all.last() > all.first());
     notes.push(format!(
-        "ImagePositionPatient is missing; the slices are in the order of {}, and the volume begins at 0",
-        if located.is_some() { "SliceLocation" } else { "InstanceNumber" }
+        "ImagePositionPatient is missing; slices are ordered {}, and the volume begins at 0",
+        if located.is_some() { "by their location" } else { numbered }
     ));
     let located = located?;
     let distances: Vec<f64> = located.iter().map(|location| location - located[0]).collect();

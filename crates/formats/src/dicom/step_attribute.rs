@@ -59,6 +59,9 @@ const ATTRIBUTES: &[(&str, Option<Tag>, Tag)] = &[
     ("ContentTime", None, tag::CONTENT_TIME),
 ];
 
+/// A longer text is compared by its beginning.
+const MAX_TEXT: usize = 200;
+
 /// The dimensions of a multi-frame file that its own index names.
 const DIMENSIONS: [&str; 6] = [
     "the first dimension",
@@ -91,7 +94,7 @@ pub(super) fn key_names() -> impl Iterator<Item = &'static str> {
 pub(super) fn keys(lookup: Lookup) -> Vec<(&'static str, KeyValue)> {
     let value = |holder: &DataSet, tag| match holder.number(tag) {
         Some(number) => Some(KeyValue::Number(number)),
-        None => holder.text(tag).map(|text| KeyValue::Text(text.to_owned())),
+        None => holder.text(tag).map(|text| KeyValue::Text(text.chars().take(MAX_TEXT).collect())),
     };
     let mut keys = Vec::new();
     for &(name, sequence, tag) in ATTRIBUTES {

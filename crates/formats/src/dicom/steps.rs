@@ -1,5 +1,7 @@
 //! Frames in order along the normal, and the time steps of a volume that has several frames at one position.
 
+use std::collections::HashMap;
+
 use super::byte_stream::Parsed;
 use super::candidate::{Slice, same_grid};
 use super::frame_info::Orientation;
@@ -48,7 +50,7 @@ fn stack_steps(images: &[Image], slices: Vec<Slice>, notes: &mut Vec<String>) ->
     let mut positions = by_position(images, slices);
     let doubles = drop_copies(images, &mut positions);
     if doubles > 0 {
-        notes.push(format!("{doubles} files are copies of others and are left out"));
+        notes.push(format!("files that are copies of others and left out: {doubles}"));
     }
     let most = positions.iter().map(Vec::len).max().unwrap_or(0);
     let shared = positions.iter().filter(|here| here.len() > 1).count();
@@ -121,46 +123,36 @@ fn rank(images: &[Image], one: Slice, other: Slice) -> std::cmp::Ordering {
 fn drop_copies(images: &[Image], positions: &mut [Vec<Slice>]) -> usize {
     let mut dropped = 0;
     for here in positions {
-        let mut seen: Vec<Slice> = Vec::new();
+        let mut image_of: HashMap<&str, usize> = HashMap::new();
         here.retain(|slice| {
-            let uid = &images[slice.image].sop_instance_uid;
-            let is_copy =
-                |other: &Slice| other.image != slice.image && images[other.image].sop_instance_uid == *uid;
-            let copy = !uid.is_empty() && seen.iter().any(is_copy);
-            seen.push(*slice);
-            dropped += usize::from(copy);
-            !copy
+            let uid = images[slice.image].sop_instance_uid.as_str();
+            let original = *image_of.entry(uid).or_insert(slice.image) == slice.image || uid.is_empty();
+            dropped += usize::from(!original);
+            original
         });
     }
     dropped
 }
 
 /// The attribute whose values tell apart the frames of every position, as many values as there are steps.
-fn splitting_key(
-    images: &[Image],
+fn splitting_key<'a>(
+    images: &'a [Image],
     positions: &[Vec<Slice>],
     most: usize,
-) -> Option<(&'static str, Vec<KeyValue>)> {
+) -> Option<(&'static str, Vec<&'a KeyValue>)> {
     key_names().find_map(|name| {
-        let mut values: Vec<KeyValue> = Vec::new();
+        let mut all: Vec<&KeyValue> = Vec::new();
         for here in positions {
-            let mut own: Vec<&KeyValue> = Vec::new();
-            for slice in here {
-                let value = key(images, *slice, name)?;
-                if own.contains(&value) {
-                    return None;
-                }
-                own.push(value);
-                if !values.contains(value) {
-                    values.push(value.clone());
-                }
-                if values.len() > most {
-                    return None;
-                }
+            let mut own = here.iter().map(|slice| key(images, *slice, name)).collect::<Option<Vec<_>>>()?;
+            own.sort_by(|one, other| one.order(other));
+            if own.windows(2).any(|pair| pair[0] == pair[1]) {
+                return None;
             }
+            all.append(&mut own);
         }
-        values.sort_by(KeyValue::order);
-        Some((name, values))
+        all.sort_by(|one, other| one.order(other));
+        all.dedup();
+        (all.len() == most).then_some((name, all))
     })
 }
 
@@ -168,12 +160,17 @@ fn key<'a>(images: &'a [Image], slice: Slice, name: &str) -> Option<&'a KeyValue
     slice.info(images).keys.iter().find(|(key, _)| *key == name).map(|(_, value)| value)
 }
 
-fn split_by_key(images: &[Image], positions: &[Vec<Slice>], name: &str, values: &[KeyValue]) -> Vec<Step> {
-    let step = |value: &KeyValue| {
-        let slices = positions.iter().flatten().filter(|slice| key(images, **slice, name) == Some(value));
-        Step { slices: slices.copied().collect(), label: format!("{name} {value}") }
-    };
-    values.iter().map(step).collect()
+fn split_by_key(images: &[Image], positions: &[Vec<Slice>], name: &str, values: &[&KeyValue]) -> Vec<Step> {
+    let label = |value: &&KeyValue| Step { slices: Vec::new(), label: format!("{name} {value}") };
+    let mut steps: Vec<Step> = values.iter().map(label).collect();
+    for slice in positions.iter().flatten() {
+        let value = key(images, *slice, name);
+        let step = value.and_then(|value| values.binary_search_by(|other| other.order(value)).ok());
+        if let Some(step) = step {
+            steps[step].slices.push(*slice);
+        }
+    }
+    steps
 }
 
 fn split_by_rank(positions: &[Vec<Slice>], most: usize) -> Vec<Step> {

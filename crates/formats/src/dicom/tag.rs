@@ -106,6 +106,11 @@ pub(super) fn is_pixel_data(tag: Tag) -> bool {
     matches!(tag, PIXEL_DATA | FLOAT_PIXEL_DATA | DOUBLE_FLOAT_PIXEL_DATA)
 }
 
+/// Whether this element holds a number for each frame.
+pub(super) fn is_vector(tag: Tag) -> bool {
+    tag.0 == 0x0054 || matches!(tag, GRID_FRAME_OFFSET_VECTOR | EXTENDED_OFFSET_TABLE)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

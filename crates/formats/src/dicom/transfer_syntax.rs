@@ -37,12 +37,11 @@ impl TransferSyntax {
             ".1.99" => Self { deflated: true, ..plain(Encoding::EXPLICIT) },
             ".5" => coded(FrameCoding::Rle),
             ".4.50" | ".4.51" | ".4.53" | ".4.55" | ".4.57" | ".4.70" => coded(FrameCoding::Jpeg),
-            ".4.90" | ".4.91" => coded(FrameCoding::Jpeg2000),
+            ".4.90" | ".4.91" | ".4.201" | ".4.202" | ".4.203" => coded(FrameCoding::Jpeg2000),
             ".4.80" => coded(FrameCoding::Unknown("JPEG-LS lossless")),
             ".4.81" => coded(FrameCoding::Unknown("JPEG-LS near-lossless")),
             ".4.92" | ".4.93" => coded(FrameCoding::Unknown("multi-component JPEG 2000")),
             ".4.110" | ".4.111" | ".4.112" => coded(FrameCoding::Unknown("JPEG XL")),
-            ".4.201" | ".4.202" | ".4.203" => coded(FrameCoding::Unknown("High-Throughput JPEG 2000")),
             other if other.starts_with(".4.10") => coded(FrameCoding::Unknown("a video coding")),
             _ => coded(FrameCoding::Unknown("a coding that is not known here")),
         }
