@@ -1,17 +1,14 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use glam::{Mat3, UVec3, Vec3};
+use glam::UVec3;
 use glassbrick_volume::{
     BakedTransferFunction, Brick, BrickGrid, BrickId, BrickRange, BrickSource, Frame, FramePlan, FrameRays,
-    Mode, PlannedBrick, Ray, ReadError, RenderSettings, Skip, Voxels,
+    PlannedBrick, ReadError, RenderSettings, Skip,
 };
 use rayon::prelude::*;
 
-use crate::interval::samples_in_box;
-use crate::look_up::LookUp;
-use crate::projector::{Dvr, Extremum, Headlight, Mean, Projector};
-use crate::sampler::{Sampler, Voxel};
+use crate::kernel::{BrickView, Kernel};
 use crate::tiles::Tiles;
 
 /// What is to be drawn.
@@ -33,47 +30,18 @@ pub struct CpuFrame {
     pub rendered: usize,
 }
 
-/// Draws a planned frame on the threads of the current rayon pool.
-///
-/// # Errors
-/// When a brick cannot be read.
-pub fn draw(source: &dyn BrickSource, scene: &CpuScene) -> Result<CpuFrame, ReadError> {
-    let desc = source.desc();
-    let look_up = LookUp::new(scene.transfer_function, desc.rescale);
-    match scene.settings.mode {
-        Mode::Dvr => {
-            let light = scene.settings.shading.map(|phong| Headlight {
-                phong,
-                normal_from_gradient: normal_from_gradient(desc.world_from_voxel().matrix3),
-            });
-            let opacity_cutoff = scene.settings.effective_cutoff();
-            draw_with(&Dvr { look_up, opacity_cutoff, light }, source, scene)
-        }
-        mode @ (Mode::Mip | Mode::Minip) => {
-            // A negative slope turns the largest value into the smallest stored value.
-            let sign = if (mode == Mode::Mip) == (desc.rescale.slope > 0.0) { 1.0 } else { -1.0 };
-            draw_with(&Extremum { look_up, sign }, source, scene)
-        }
-        Mode::Mean => draw_with(&Mean { look_up }, source, scene),
-    }
-}
-
-/// The inverse transpose, in which surfaces' normals go from voxel to world space.
-fn normal_from_gradient(world_from_voxel: glam::DMat3) -> Mat3 {
-    world_from_voxel.inverse().transpose().as_mat3()
-}
-
-fn draw_with<P: Projector>(
-    projector: &P,
+/// Draws a planned frame with one kernel, layer by layer.
+pub fn draw_with<K: Kernel>(
+    kernel: &K,
     source: &dyn BrickSource,
     scene: &CpuScene,
 ) -> Result<CpuFrame, ReadError> {
     let picture = Picture {
-        projector,
+        kernel,
         scene,
         grid: source.grid(scene.plan.level),
         ranges: source.ranges(scene.plan.level),
-        tiles: Tiles::new(scene.rays, projector.start()),
+        tiles: Tiles::new(kernel, scene.rays),
         samples: AtomicU64::new(0),
     };
     let (mut occluded, mut rendered) = (0, 0);
@@ -85,19 +53,19 @@ fn draw_with<P: Projector>(
     }
     Ok(CpuFrame {
         samples: picture.samples.into_inner(),
-        frame: picture.tiles.finish(scene.rays, projector),
+        frame: picture.tiles.finish(kernel, scene.rays),
         occluded,
         rendered,
     })
 }
 
 /// A picture under way.
-struct Picture<'a, P: Projector> {
-    projector: &'a P,
+struct Picture<'a, K: Kernel> {
+    kernel: &'a K,
     scene: &'a CpuScene<'a>,
     grid: BrickGrid,
     ranges: &'a [BrickRange],
-    tiles: Tiles<P::Pixel>,
+    tiles: Tiles<K::Tile>,
     samples: AtomicU64,
 }
 
@@ -108,20 +76,22 @@ struct Share<'a> {
     is_rendered: &'a AtomicBool,
 }
 
-impl<P: Projector> Picture<'_, P> {
+impl<K: Kernel> Picture<'_, K> {
     /// Whether nothing in a brick can change the picture any more.
     fn is_hidden(&self, brick: &PlannedBrick) -> bool {
         let reach = self.ranges[brick.index as usize].reach;
         self.scene.settings.skip == Skip::All
-            && self.tiles.all(&brick.footprint, |pixel| self.projector.is_unchanged_by(pixel, reach))
+            && self
+                .tiles
+                .in_rect(&brick.footprint)
+                .all(|tile| self.kernel.is_unchanged_by(&tile, &brick.footprint, reach))
     }
 
     /// Draws bricks of one layer; returns how many had a sample evaluated.
     fn draw_bricks(&self, source: &dyn BrickSource, open: &[&PlannedBrick]) -> Result<usize, ReadError> {
         let is_rendered: Vec<AtomicBool> = open.iter().map(|_| AtomicBool::new(false)).collect();
-        let shares = self.shares(open, &is_rendered);
         let level = self.scene.plan.level;
-        shares.into_par_iter().try_for_each(|share| {
+        self.shares(open, &is_rendered).into_par_iter().try_for_each(|share| {
             let UVec3 { x, y, z } = self.grid.brick(share.brick.index as usize);
             let brick = source.brick(BrickId { level, x, y, z })?;
             self.draw_share(&brick, &share);
@@ -136,7 +106,7 @@ impl<P: Projector> Picture<'_, P> {
         let per_brick = wanted.div_ceil(open.len().max(1)) as u32;
         let mut shares = Vec::new();
         for (&brick, is_rendered) in open.iter().zip(is_rendered) {
-            let rows = Tiles::<P::Pixel>::rows(&brick.footprint);
+            let rows = Tiles::<K::Tile>::rows(&brick.footprint);
             let rows_per_share = (rows.len() as u32).div_ceil(per_brick).max(1);
             for start in rows.clone().step_by(rows_per_share as usize) {
                 let tile_rows = start..(start + rows_per_share).min(rows.end);
@@ -147,66 +117,16 @@ impl<P: Projector> Picture<'_, P> {
     }
 
     fn draw_share(&self, brick: &Brick, share: &Share) {
-        let samples = match &brick.voxels {
-            Voxels::U8(voxels) => self.draw_voxels(voxels, share),
-            Voxels::I8(voxels) => self.draw_voxels(voxels, share),
-            Voxels::U16(voxels) => self.draw_voxels(voxels, share),
-            Voxels::I16(voxels) => self.draw_voxels(voxels, share),
-            Voxels::F32(voxels) => self.draw_voxels(voxels, share),
+        let range = &self.ranges[share.brick.index as usize];
+        let Some(prepared) = self.kernel.prepare(BrickView::new(brick, share.brick, &self.grid, range))
+        else {
+            return;
         };
+        let tiles = self.tiles.in_rows(share.tile_rows.clone(), &share.brick.footprint);
+        let samples: u64 = tiles.map(|mut tile| self.kernel.add_brick(&mut tile, &prepared)).sum();
         if samples > 0 {
             self.samples.fetch_add(samples, Ordering::Relaxed);
             share.is_rendered.store(true, Ordering::Relaxed);
         }
-    }
-
-    /// Adds a brick's samples to the pixels of a share; returns how many there were.
-    fn draw_voxels<V: Voxel>(&self, voxels: &[V], share: &Share) -> u64 {
-        let index = share.brick.index as usize;
-        let brick = self.grid.brick(index);
-        let sampler =
-            Sampler { voxels, edge: self.grid.layout.edge as usize, halo_start: self.grid.halo_start(brick) };
-        let owned = self.grid.owned_box(brick);
-        let reach = self.ranges[index].reach;
-        let rect = &share.brick.footprint;
-        let mut samples = 0;
-        for mut tile in self.tiles.in_rows(share.tile_rows.clone(), rect) {
-            for place in tile.places(rect) {
-                let pixel = tile.pixels[place];
-                if self.is_passed_by(&pixel, reach) {
-                    continue;
-                }
-                let ray = tile.rays[place];
-                let (pixel, evaluated) = self.march(pixel, &ray, owned, &sampler);
-                tile.pixels[place] = pixel;
-                samples += u64::from(evaluated);
-            }
-        }
-        samples
-    }
-
-    fn is_passed_by(&self, pixel: &P::Pixel, reach: [f32; 2]) -> bool {
-        let skip_all = self.scene.settings.skip == Skip::All;
-        self.projector.is_done(pixel) || (skip_all && self.projector.is_unchanged_by(pixel, reach))
-    }
-
-    /// Adds the samples of one ray in one brick; returns the pixel and how many there were.
-    #[inline(always)]
-    fn march<V: Voxel>(
-        &self,
-        mut pixel: P::Pixel,
-        ray: &Ray,
-        owned: [Vec3; 2],
-        sampler: &Sampler<V>,
-    ) -> (P::Pixel, u32) {
-        let numbers = samples_in_box(ray, owned, self.scene.rays.sample_count);
-        for number in numbers.clone() {
-            let cell = sampler.cell(ray.sample(number));
-            self.projector.add(&mut pixel, sampler, cell, ray, number);
-            if self.projector.is_done(&pixel) {
-                return (pixel, number + 1 - numbers.start);
-            }
-        }
-        (pixel, numbers.len() as u32)
     }
 }

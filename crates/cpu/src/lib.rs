@@ -8,11 +8,18 @@
 //! a layer, so the order in which threads come to a tile changes nothing.
 
 mod executor;
-mod exponential;
-mod interval;
-mod look_up;
-mod projector;
-mod sampler;
+mod kernel;
+mod scalar;
 mod tiles;
 
-pub use executor::{CpuFrame, CpuScene, draw};
+use glassbrick_volume::{BrickSource, ReadError};
+
+pub use executor::{CpuFrame, CpuScene};
+
+/// Draws a planned frame on the threads of the current rayon pool.
+///
+/// # Errors
+/// When a brick cannot be read.
+pub fn draw(source: &dyn BrickSource, scene: &CpuScene) -> Result<CpuFrame, ReadError> {
+    scalar::draw(source, scene)
+}

@@ -91,9 +91,9 @@ impl Bounds {
     const NOTHING: Self = Self { min: [f64::INFINITY; 2], max: [f64::NEG_INFINITY; 2] };
 
     fn widen(&mut self, point: [f64; 2]) {
-        for axis in 0..2 {
-            self.min[axis] = self.min[axis].min(point[axis]);
-            self.max[axis] = self.max[axis].max(point[axis]);
+        for (axis, at) in point.into_iter().enumerate() {
+            self.min[axis] = self.min[axis].min(at);
+            self.max[axis] = self.max[axis].max(at);
         }
     }
 }

@@ -3,12 +3,10 @@
 use glam::{Mat3, Vec3};
 use glassbrick_volume::{Phong, Ray};
 
-use crate::exponential::opacity;
-use crate::look_up::LookUp;
-use crate::sampler::{Cell, Sampler, Voxel};
-
-/// The depth of pixels that show nothing.
-pub const NO_SAMPLE: u32 = u32::MAX;
+use super::exponential::opacity;
+use super::look_up::LookUp;
+use super::sampler::{Cell, Sampler, Voxel};
+use crate::kernel::NO_SAMPLE;
 
 /// Forms pixels from samples that come front to back.
 pub trait Projector: Sync {
@@ -103,8 +101,8 @@ impl Projector for Dvr<'_> {
             None => [1.0, 0.0],
         };
         let color = self.look_up.color(entry);
-        for c in 0..3 {
-            pixel.color[c] += weight * (color[c] * factor + term);
+        for (gathered, color) in pixel.color.iter_mut().zip(color) {
+            *gathered += weight * (color * factor + term);
         }
         pixel.opacity += weight;
         if pixel.opacity >= 0.5 && pixel.depth == NO_SAMPLE {

@@ -1,0 +1,62 @@
+use glam::{IVec3, Vec3};
+use glassbrick_volume::{Brick, BrickGrid, BrickRange, FrameRays, PixelRect, PlannedBrick};
+
+/// How tiles of the picture are drawn: the code for one way to form pixels with one set of instructions.
+pub trait Kernel: Sync {
+    /// The rays of a tile and what they have gathered so far.
+    type Tile: Send;
+
+    /// What is found out of a brick before its tiles are drawn.
+    type Prepared<'a>;
+
+    /// A tile that has met no sample.
+    fn start(&self, rays: &FrameRays, rect: PixelRect) -> Self::Tile;
+
+    /// Whether samples with stored values in `reach` cannot change any of the pixels of a tile that lie in `rect`.
+    fn is_unchanged_by(&self, tile: &Self::Tile, rect: &PixelRect, reach: [f32; 2]) -> bool;
+
+    /// Looks at a brick; nothing where it holds nothing to draw.
+    fn prepare<'a>(&self, brick: BrickView<'a>) -> Option<Self::Prepared<'a>>;
+
+    /// Adds a brick's samples to the pixels of a tile; returns how many were evaluated.
+    fn add_brick(&self, tile: &mut Self::Tile, brick: &Self::Prepared<'_>) -> u64;
+
+    /// Hands out each pixel of a tile, row by row: premultiplied linear light, and the sample number that its depth
+    /// is taken from, or [`NO_SAMPLE`].
+    fn finish(&self, tile: &Self::Tile, pixel: impl FnMut([f32; 4], u32));
+}
+
+/// The sample number of a pixel that has no depth.
+pub const NO_SAMPLE: u32 = u32::MAX;
+
+/// A brick and its place in the frame.
+#[derive(Clone, Copy)]
+pub struct BrickView<'a> {
+    pub brick: &'a Brick,
+    /// The pixels that can meet it.
+    pub footprint: PixelRect,
+    /// The volume's voxel that is the brick's first.
+    pub halo_start: IVec3,
+    /// The half-open box of sample positions that belong to it.
+    pub owned: [Vec3; 2],
+    /// Smallest and largest stored value that a sample in it can have.
+    pub reach: [f32; 2],
+}
+
+impl<'a> BrickView<'a> {
+    pub fn new(brick: &'a Brick, planned: &PlannedBrick, grid: &BrickGrid, range: &BrickRange) -> Self {
+        let at = grid.brick(planned.index as usize);
+        Self {
+            brick,
+            footprint: planned.footprint,
+            halo_start: grid.halo_start(at),
+            owned: grid.owned_box(at),
+            reach: range.reach,
+        }
+    }
+}
+
+/// Whether two rectangles of pixels have one in common.
+pub fn overlap(a: &PixelRect, b: &PixelRect) -> bool {
+    (0..2).all(|axis| a.min[axis] < b.max[axis] && b.min[axis] < a.max[axis])
+}
