@@ -189,10 +189,10 @@ fn add_noise(hu: &[f32], noise: RowNoise, out: &mut [i16]) {
     const TISSUE_DEVIATION_HU: f32 = 15.0;
     /// Added to a float of this size, its lowest bits are the rounded integer.
     const ROUND: f32 = 12_582_912.0;
-    for (x, (stored, &hu)) in out.iter_mut().zip(hu).enumerate() {
+    for (x, (stored, &hu)) in (0_u32..).zip(out.iter_mut().zip(hu)) {
         let density = ((hu - AIR_HU) * (1.0 / 700.0)).clamp(0.0, 1.0);
         let deviation = AIR_DEVIATION_HU + (TISSUE_DEVIATION_HU - AIR_DEVIATION_HU) * density;
-        let value = (hu + deviation * noise.at(x as u32)).clamp(-1024.0, 3071.0);
+        let value = (hu + deviation * noise.at(x)).clamp(-1024.0, 3071.0);
         *stored = (value + ROUND).to_bits() as i16;
     }
 }
