@@ -1,10 +1,11 @@
 //! DICOM: a file, or the files of one series, as a volume.
 //!
-//! Headers are read by a parser of our own, which keeps the few elements that matter, knows at which byte the voxels
-//! begin, and holds every length against the file's before it believes it. Then, each step knowing only what the one
-//! before it made:
+//! Headers are read by a parser of our own, which keeps the few elements that matter, knows at which byte the
+//! voxels begin, and holds every length against the file's before it believes it. Then, each step knowing
+//! only what the one before it made:
 //!
-//! - `probe`, `image`, `frame_info`: what one file's header says (on `byte_stream`, `element`, `data_set`, `tag`);
+//! - `probe`, `image`, `frame_info`: what one file's header says (on `byte_stream`, `element`, `data_set`,
+//!   `data_set_reader`, `tag`);
 //! - `gather`: the headers of a folder, or of a file's neighbours;
 //! - `candidate`: which files belong together, and which of several volumes is meant;
 //! - `steps`, `step_attribute`: the frames in order, and the time steps of those that share positions;
@@ -14,6 +15,7 @@
 mod byte_stream;
 mod candidate;
 mod data_set;
+mod data_set_reader;
 mod element;
 mod frame_codec;
 mod frame_info;
@@ -44,7 +46,8 @@ use self::reader::DicomReader;
 use self::steps::Step;
 use crate::{FormatError, OpenOptions};
 
-/// Opens a DICOM file with its series, or a folder that holds one volume. Nothing where there is no DICOM at all.
+/// Opens a DICOM file with its series, or a folder that holds one volume. Nothing where there is no DICOM at
+/// all.
 pub(crate) fn open_path(
     path: &Path,
     options: &OpenOptions,
@@ -59,6 +62,12 @@ pub(crate) fn open_path(
     } else {
         candidate::of_first_image(candidates)
     };
+    if let Some(error) = gathered.refused.first() {
+        notes.push(format!(
+            "files that are passed over: {}, the first because {error}",
+            gathered.refused.len()
+        ));
+    }
     let images = gathered.images;
     if !is_folder && slices.iter().any(|slice| slice.image != 0) {
         notes.push(format!("the files of its series beside it are read with it: {} in all", slices.len()));

@@ -24,8 +24,8 @@ impl Slice {
     }
 }
 
-/// The files that may be one volume, or several time steps of one: one series and one kind of image. A multi-frame
-/// file stands for itself.
+/// The files that may be one volume, or several time steps of one: one series and one kind of image. A
+/// multi-frame file stands for itself.
 pub(super) fn candidates(images: &[Image]) -> Vec<Vec<Slice>> {
     let mut candidates: Vec<Vec<Slice>> = Vec::new();
     let mut of_series: HashMap<&str, Vec<usize>> = HashMap::new();
@@ -55,7 +55,8 @@ fn same_kind(one: &Image, other: &Image) -> bool {
         && one.is_localizer == other.is_localizer
 }
 
-/// Whether two frames can be slices of one volume: parallel, of equal spacing, and both with or without a position.
+/// Whether two frames can be slices of one volume: parallel, of equal spacing, and both with or without a
+/// position.
 pub(super) fn same_grid(one: &FrameInfo, other: &FrameInfo) -> bool {
     let near = |one: f64, other: f64| (one - other).abs() <= 1e-3 * one.max(other);
     let axes = |frame: &FrameInfo| frame.orientation.unwrap_or(Orientation::AXIAL);
@@ -100,12 +101,6 @@ pub(super) fn only_volume(
     }
     if gathered.others > 0 {
         notes.push(format!("DICOM files without an image, which are not read: {}", gathered.others));
-    }
-    if let Some(error) = gathered.refused.first() {
-        notes.push(format!(
-            "DICOM files that are passed over: {}, the first because {error}",
-            gathered.refused.len()
-        ));
     }
     Ok(slices)
 }

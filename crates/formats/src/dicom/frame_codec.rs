@@ -9,8 +9,8 @@ use super::pixel_format::BitField;
 use super::transfer_syntax::FrameCoding;
 use super::{jpeg, jpeg2000, rle};
 
-/// Decodes a frame into stored values in this machine's byte order; `out` has the size of one frame. No rescaling
-/// and no windowing.
+/// Decodes a frame into stored values in this machine's byte order; `out` has the size of one frame. No
+/// rescaling and no windowing.
 pub(super) fn decode_frame(image: &Image, frame: usize, fragments: &Fragments, out: &mut [u8]) -> Parsed<()> {
     let voxel_bytes = image.format.stored_type.bytes();
     let mut bits = image.format.bits;
@@ -92,7 +92,8 @@ fn swap(voxel_bytes: usize, voxels: &mut [u8]) {
     }
 }
 
-/// Writes the low bytes of each sample. There are as many samples as `out` has voxels: the decoders see to that.
+/// Writes the low bytes of each sample. There are as many samples as `out` has voxels: the decoders see to
+/// that.
 fn place(samples: impl Iterator<Item = u32>, voxel_bytes: usize, out: &mut [u8]) {
     match voxel_bytes {
         1 => out.iter_mut().zip(samples).for_each(|(voxel, sample)| *voxel = sample as u8),

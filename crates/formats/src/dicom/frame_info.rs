@@ -48,7 +48,8 @@ pub(super) struct Lookup<'a> {
 }
 
 impl<'a> Lookup<'a> {
-    /// The data set that holds an attribute: the frame's functional group, the one shared by all frames, or the root.
+    /// The data set that holds an attribute: the frame's functional group, the one shared by all frames, or
+    /// the root.
     pub(super) fn holder(self, sequence: Option<Tag>, tag: Tag) -> Option<&'a DataSet> {
         let in_group = |group: &'a DataSet| group.items(sequence?).first().filter(|item| item.has(tag));
         let found = self.groups.into_iter().flatten().find_map(in_group);
@@ -86,8 +87,8 @@ pub(super) fn read_frames(root: &DataSet, count: usize, notes: &mut Vec<&'static
     frames
 }
 
-/// How far along the normal the frames of a classic multi-frame file lie from its position: dose grids, nuclear
-/// medicine, and stacks that do not say it.
+/// How far along the normal the frames of a classic multi-frame file lie from its position: dose grids,
+/// nuclear medicine, and stacks that do not say it.
 fn frame_offsets_mm(root: &DataSet, count: usize, notes: &mut Vec<&'static str>) -> Option<Vec<f64>> {
     if let Some(offsets) = root.numbers(tag::GRID_FRAME_OFFSET_VECTOR).filter(|all| all.len() == count) {
         return Some(offsets.iter().map(|offset| offset - offsets[0]).collect());

@@ -48,7 +48,8 @@ pub(super) fn find_fragments(image: &Image) -> Parsed<Vec<Fragments>> {
     group_by_frame(image, fragments, &table, first_item)
 }
 
-/// Shares the fragments among the frames: one each, or by the offset table, or by the marks at which images start.
+/// Shares the fragments among the frames: one each, or by the offset table, or by the marks at which images
+/// start.
 fn group_by_frame(
     image: &Image,
     fragments: Fragments,

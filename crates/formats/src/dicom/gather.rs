@@ -25,7 +25,8 @@ pub(super) struct Gathered {
     pub refused: Vec<FormatError>,
 }
 
-/// Reads the headers of the DICOM files in a folder, or, if it has none, below it. Nothing where there is none.
+/// Reads the headers of the DICOM files in a folder, or, if it has none, below it. Nothing where there is
+/// none.
 pub(super) fn gather_folder(folder: &Path) -> Result<Option<Gathered>, FormatError> {
     let entries = Entries::read(folder).map_err(|source| FormatError::io(folder, source))?;
     if let Some(gathered) = gather_files(&entries.files) {
@@ -67,7 +68,9 @@ pub(super) fn gather_series(file: &Path) -> Result<Option<Gathered>, FormatError
         let entries = Entries::read(folder).unwrap_or_default();
         let siblings: Vec<PathBuf> =
             entries.files.into_iter().filter(|sibling| sibling.file_name() != file.file_name()).collect();
-        gathered.images = gather_files(&siblings).unwrap_or_default().images;
+        gathered = gather_files(&siblings).unwrap_or_default();
+        // What is known to be no slice is of no interest here; what is damaged may be one.
+        gathered.refused.retain(|error| !matches!(error, FormatError::Unsupported { .. }));
         gathered.images.retain(|sibling| sibling.series.uid == image.series.uid && sibling.frames.len() == 1);
     }
     gathered.images.insert(0, image);
@@ -79,13 +82,15 @@ fn gather_files(files: &[PathBuf]) -> Option<Gathered> {
     let mut gathered = Gathered::default();
     for probed in probed {
         match probed {
-            Probed::NotDicom | Probed::Refused(FormatError::Io { .. }) => {}
+            Probed::NotDicom => {}
             Probed::NoImage => gathered.others += 1,
             Probed::Refused(error) => gathered.refused.push(error),
             Probed::Image(image) => gathered.images.push(*image),
         }
     }
-    let any = gathered.others > 0 || !gathered.refused.is_empty() || !gathered.images.is_empty();
+    // A file that cannot be read at all may be of any kind.
+    let is_dicom = |error: &FormatError| !matches!(error, FormatError::Io { .. });
+    let any = gathered.others > 0 || gathered.refused.iter().any(is_dicom) || !gathered.images.is_empty();
     any.then_some(gathered)
 }
 

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::byte_stream::Parsed;
-use super::data_set::{DataSet, PixelElement};
+use super::data_set::DataSet;
+use super::data_set_reader::PixelElement;
 use super::frame_info::{FrameInfo, read_frames};
 use super::pixel_format::PixelFormat;
 use super::tag;
@@ -149,9 +150,9 @@ fn check_scalar(root: &DataSet) -> Parsed<()> {
     let samples = root.whole(tag::SAMPLES_PER_PIXEL).unwrap_or(1);
     let photometric = root.text(tag::PHOTOMETRIC_INTERPRETATION).unwrap_or("MONOCHROME2");
     if samples != 1 || photometric == "PALETTE COLOR" {
+        let photometric = photometric.escape_debug();
         return Err(format!(
-            "holds colours ({}); only one value for each voxel is read",
-            photometric.escape_debug()
+            "has {samples} samples per pixel, {photometric}; one grey value for each is read"
         ));
     }
     if image_type(root).any(|part| part == "MOSAIC") {

@@ -13,7 +13,8 @@ pub(super) fn check(encoded: &[u8], columns: u32, rows: u32) -> Parsed<()> {
 pub(super) fn decode(encoded: &[u8], columns: u32, rows: u32) -> Parsed<Vec<u16>> {
     let voxels = columns as usize * rows as usize;
     let decoded = start(encoded, columns, rows)?.decode().map_err(|error| refusal(&error))?;
-    // Whether a voxel takes one byte or two is seen by the size: it does not follow from the pixel format alone.
+    // Whether a voxel takes one byte or two is seen by the size: it does not follow from the pixel format
+    // alone.
     if decoded.len() == voxels {
         Ok(decoded.into_iter().map(u16::from).collect())
     } else if decoded.len() == 2 * voxels {

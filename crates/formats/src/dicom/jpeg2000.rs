@@ -22,7 +22,8 @@ pub(super) fn check(encoded: &[u8], columns: u32, rows: u32) -> Parsed<u32> {
     let steps = (sizes[39], sizes[40]);
     if (width, height, components, steps) != (columns, rows, 1, (1, 1)) {
         return Err(format!(
-            "has a JPEG 2000 frame of {width}×{height} with {components} components where {columns}×{rows} with 1 is said"
+            "has a JPEG 2000 frame of {width}×{height} with {components} components where {columns}×{rows} \
+             with 1 is said"
         ));
     }
     Ok(u32::from(sizes[38] & 0x7F) + 1)

@@ -3,7 +3,8 @@
 use glassbrick_volume::StoredType;
 
 use super::byte_stream::Parsed;
-use super::data_set::{DataSet, PixelElement};
+use super::data_set::DataSet;
+use super::data_set_reader::PixelElement;
 use super::tag;
 
 /// The voxels of a file once its frames are decoded.

@@ -4,7 +4,8 @@ use std::fs::File;
 use std::path::Path;
 
 use super::byte_stream::{ByteStream, Parsed};
-use super::data_set::{DataSet, PixelElement, read_data_set, read_meta};
+use super::data_set::DataSet;
+use super::data_set_reader::{PixelElement, read_data_set, read_meta};
 use super::element::{Encoding, is_vr};
 use super::image::Image;
 use super::tag;
@@ -114,7 +115,8 @@ fn start_data_set(mut stream: ByteStream) -> Parsed<(TransferSyntax, ByteStream)
     Ok((transfer_syntax, stream))
 }
 
-/// The encoding in which the first element makes sense: transfer syntaxes are missing, or wrong, in real files.
+/// The encoding in which the first element makes sense: transfer syntaxes are missing, or wrong, in real
+/// files.
 fn true_encoding(bytes: &[u8], claimed: Encoding) -> Encoding {
     let Some(&[group_low, group_high, _, _, a, b]) = bytes.first_chunk() else { return claimed };
     let big_endian = match (group_low, group_high) {

@@ -136,7 +136,8 @@ impl DicomReader {
         Some(FlatPlacement { pieces, endian: endian(first) })
     }
 
-    /// Whether the voxels in the file are the stored values: the bits beside them hold nothing but their sign.
+    /// Whether the voxels in the file are the stored values: the bits beside them hold nothing but their
+    /// sign.
     fn holds_stored_values(&self, slice: Slice) -> bool {
         let image = &self.images[slice.image];
         if image.format.uses_all_bits() {

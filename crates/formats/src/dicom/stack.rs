@@ -12,8 +12,8 @@ const EVEN: f64 = 0.01;
 /// A shear below this angle is the rounding of positions.
 const STRAIGHT_DEGREES: f64 = 0.05;
 
-/// Describes the volume of these frames, which stand in order along their normal. What is odd about them is told in
-/// `notes`.
+/// Describes the volume of these frames, which stand in order along their normal. What is odd about them is
+/// told in `notes`.
 pub(super) fn describe(images: &[Image], slices: &[Slice], notes: &mut Vec<String>) -> VolumeDesc {
     let image = &images[slices[0].image];
     let infos: Vec<&FrameInfo> = slices.iter().map(|slice| slice.info(images)).collect();
@@ -101,7 +101,8 @@ fn step_of_locations(infos: &[&FrameInfo], numbered: &str, notes: &mut Vec<Strin
     Some(distances.last()? / (distances.len() - 1) as f64)
 }
 
-/// Tells of missing slices, or of slices at uneven distances. `distances` are from the first slice, increasing.
+/// Tells of missing slices, or of slices at uneven distances. `distances` are from the first slice,
+/// increasing.
 fn tell_gaps(distances: &[f64], notes: &mut Vec<String>) {
     let gaps: Vec<f64> = distances.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let mut sorted = gaps.clone();
@@ -118,7 +119,7 @@ fn tell_gaps(distances: &[f64], notes: &mut Vec<String>) {
         let missing: f64 = gaps.iter().map(|gap| multiple(*gap) - 1.0).sum();
         let after = gaps.iter().position(|gap| multiple(*gap) > 1.0).unwrap_or(0) + 1;
         notes.push(format!(
-            "{missing} slices are missing, the first after slice {after}: slices lie {usual:.4} mm apart, there up \
+            "slices missing: {missing}, the first after slice {after}; slices lie {usual:.4} mm apart, there up \
              to {most:.4} mm; all are drawn {mean:.4} mm apart"
         ));
     } else {

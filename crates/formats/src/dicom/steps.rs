@@ -69,8 +69,8 @@ fn stack_steps(images: &[Image], slices: Vec<Slice>, notes: &mut Vec<String>) ->
     vec![Step { slices: positions.concat(), label: String::new() }]
 }
 
-/// The frames in order along the normal, those of one position together; each a position of its own, as they are
-/// numbered, where nothing says how they lie.
+/// The frames in order along the normal, those of one position together; each a position of its own, as they
+/// are numbered, where nothing says how they lie.
 fn by_position(images: &[Image], mut slices: Vec<Slice>) -> Vec<Vec<Slice>> {
     let distances = distances_mm(images, &slices);
     slices.sort_by(|one, other| rank(images, *one, *other));
@@ -112,7 +112,8 @@ fn distances_mm<'a>(images: &'a [Image], slices: &[Slice]) -> Option<impl Fn(Sli
     })
 }
 
-/// The order of frames that lie at one position, or have none: as they are numbered, then by the name of their file.
+/// The order of frames that lie at one position, or have none: as they are numbered, then by the name of
+/// their file.
 fn rank(images: &[Image], one: Slice, other: Slice) -> std::cmp::Ordering {
     let number = |slice: Slice| slice.info(images).instance_number.unwrap_or(f64::INFINITY);
     let place = |slice: Slice| (&images[slice.image].path, slice.frame);

@@ -24,8 +24,8 @@ pub(super) struct TransferSyntax {
 }
 
 impl TransferSyntax {
-    /// The transfer syntax of that UID. One that is not known is taken to differ in its frames only, as all do that
-    /// were added to the standard.
+    /// The transfer syntax of that UID. One that is not known is taken to differ in its frames only, as all
+    /// do that were added to the standard.
     pub(super) fn from_uid(uid: &str) -> Self {
         let plain =
             |encoding| Self { uid: uid.to_owned(), encoding, deflated: false, coding: FrameCoding::Native };

@@ -84,8 +84,10 @@ fn a_file_that_is_no_slice_is_passed_over_and_said() {
 #[test]
 fn what_has_not_one_value_for_each_voxel_is_refused() {
     let slice = || Written::slice(0.0, 0);
-    assert!(refused(slice().set(tag::SAMPLES_PER_PIXEL, 3_u16)).contains("colours"));
-    assert!(refused(slice().set(tag::PHOTOMETRIC_INTERPRETATION, "PALETTE COLOR")).contains("colours"));
+    assert!(refused(slice().set(tag::SAMPLES_PER_PIXEL, 3_u16)).contains("samples per pixel"));
+    assert!(
+        refused(slice().set(tag::PHOTOMETRIC_INTERPRETATION, "PALETTE COLOR")).contains("samples per pixel")
+    );
     assert!(refused(slice().set(tag::IMAGE_TYPE, r"ORIGINAL\PRIMARY\M\MOSAIC")).contains("mosaic"));
     assert!(refused(slice().bits(1, 1, false)).contains("1-bit"));
     assert!(refused(slice().bits(64, 64, false)).contains("BitsAllocated 64"));
@@ -149,7 +151,8 @@ fn sequences_nested_without_end_are_refused() {
     let path = folder.write("0.dcm", Written::slice(0.0, 0));
     let whole = fs::read(&path).expect("the file");
     let start = whole.windows(4).position(|window| window == [8, 0, 0x16, 0]).expect("the first element");
-    // Sequences of undefined length, each the first element of an item of the one before; kept ones, and others.
+    // Sequences of undefined length, each the first element of an item of the one before; kept ones, and
+    // others.
     for tag in [[0x20, 0, 0x13, 0x91], [0x40, 0, 0x75, 0x02]] {
         let mut nested = whole[..start].to_vec();
         for _ in 0..100_000 {

@@ -4,8 +4,8 @@ use glassbrick_volume::{Endian, StoredType, VolumeReader};
 
 use super::super::tag;
 use super::written::{
-    BIG_ENDIAN, COLUMNS, DEFLATED, EXPLICIT, Folder, IMPLICIT, JPEG_2000, JPEG_BASELINE, JPEG_LOSSLESS, RLE,
-    ROWS, VOXELS, Written, bytes, has_note, levels, voxels,
+    BIG_ENDIAN, COLUMNS, DEFLATED, EXPLICIT, Folder, HIGH_THROUGHPUT, IMPLICIT, JPEG_2000, JPEG_BASELINE,
+    JPEG_LOSSLESS, RLE, ROWS, VOXELS, Written, bytes, has_note, levels, voxels,
 };
 
 /// The voxels that a volume's placement leads to, in this machine's byte order.
@@ -69,7 +69,7 @@ fn twelve_bits_beside_nothing_but_their_sign_are_read_in_place() {
 #[test]
 fn bytes_in_big_endian_words_are_put_in_order() {
     let folder = Folder::new();
-    let ramp: Vec<u16> = (0..VOXELS as u16 / 2).map(|pair| (2 * pair + 1) << 8 | 2 * pair).collect();
+    let ramp: Vec<u16> = (0..VOXELS as u16 / 2).map(|pair| ((2 * pair + 1) << 8) | (2 * pair)).collect();
     let slice = Written::slice(0.0, 0).bits(8, 8, false).voxels16(&ramp);
     folder.write_as(BIG_ENDIAN, "0", slice);
     let mut reader = folder.open();
@@ -121,18 +121,23 @@ fn run_length_frames_are_decoded_each_from_its_own_fragment() {
 }
 
 /// 0, 300, 600 … 3300 in 12 bits, lossless JPEG.
-const LOSSLESS_JPEG: &str = "ffd8ffc4001700010101010000000000000000000000000a090b0cffc3000b0c0003000401001100ffda00080100\
-                             00060000e7ff00a594b29669609612c258d2c12c2584b0ffd9";
+const LOSSLESS_JPEG: &str = "ffd8ffc4001700010101010000000000000000000000000a090b0cffc3000b0c0003000401001100ffda0008010000060000\
+     e7ff00a594b29669609612c258d2c12c2584b0ffd9";
 /// -300, -200 … 800 in 16 bits, lossless JPEG 2000.
-const LOSSLESS_JPEG_2000: &str = "ff4fff5100290000000000040000000300000000000000000000000400000003000000000000000000018f0101ff52000c000000010000\
-     04040001ff5c00044080ff90000a0000000000210001ff93c07ec1e0131dd67600f195a0339dd8c3ebef99ffd9";
+const LOSSLESS_JPEG_2000: &str = "ff4fff5100290000000000040000000300000000000000000000000400000003000000000000000000018f0101ff52000c00\
+     000001000004040001ff5c00044080ff90000a0000000000210001ff93c07ec1e0131dd67600f195a0339dd8c3ebef99ffd9";
+/// 0, 300, 600 … 3300 in 16 bits, lossless High-Throughput JPEG 2000.
+const HIGH_THROUGHPUT_JPEG_2000: &str = "ff4fff5100294000000000040000000300000000000000000000000400000003000000000000000000010f0101ff50000800\
+     020000000aff52000c00020001000504044001ff5c00132088909090909090909090909090888888ff90000a000000000038\
+     0001ff93c00026fbf305077400000000c000134000130044fd02877400bef203877400c000270056acfc02027400ffd9";
 /// 130 everywhere in 8 bits, baseline JPEG.
-const BASELINE_JPEG: &str = "ffd8ffdb0043000302020302020303030304030304050805050404050a070706080c0a0c0c0b0a0b0b0d0e12100d0e110e0b0b1016101113\
-     141515150c0f171816141812141514ffc0000b080003000401011100ffc4001f000001050101010101010000000000000000010203040506\
-     0708090a0bffc400b5100002010303020403050504040000017d01020300041105122131410613516107227114328191a1082342b1c11552\
-     d1f02433627282090a161718191a25262728292a3435363738393a434445464748494a535455565758595a636465666768696a7374757677\
-     78797a838485868788898a92939495969798999aa2a3a4a5a6a7a8a9aab2b3b4b5b6b7b8b9bac2c3c4c5c6c7c8c9cad2d3d4d5d6d7d8d9da\
-     e1e2e3e4e5e6e7e8e9eaf1f2f3f4f5f6f7f8f9faffda0008010100003f0096bfffd9";
+const BASELINE_JPEG: &str = "ffd8ffdb0043000302020302020303030304030304050805050404050a070706080c0a0c0c0b0a0b0b0d0e12100d0e110e0b\
+     0b1016101113141515150c0f171816141812141514ffc0000b080003000401011100ffc4001f000001050101010101010000\
+     0000000000000102030405060708090a0bffc400b5100002010303020403050504040000017d010203000411051221314106\
+     13516107227114328191a1082342b1c11552d1f02433627282090a161718191a25262728292a3435363738393a4344454647\
+     48494a535455565758595a636465666768696a737475767778797a838485868788898a92939495969798999aa2a3a4a5a6a7\
+     a8a9aab2b3b4b5b6b7b8b9bac2c3c4c5c6c7c8c9cad2d3d4d5d6d7d8d9dae1e2e3e4e5e6e7e8e9eaf1f2f3f4f5f6f7f8f9fa\
+     ffda0008010100003f0096bfffd9";
 
 fn from_hex(text: &str) -> Vec<u8> {
     let digits: Vec<u8> = text.bytes().filter(u8::is_ascii_hexdigit).collect();
@@ -158,6 +163,15 @@ fn lossless_jpeg_2000_keeps_signs() {
     let encoded = from_hex(LOSSLESS_JPEG_2000);
     folder.write_as(JPEG_2000, "0", Written::slice(0.0, 0).fragments(&[0], &[&encoded]));
     assert_eq!(voxels(folder.open()), (0..12).map(|voxel| voxel * 100 - 300).collect::<Vec<_>>());
+}
+
+#[test]
+fn high_throughput_jpeg_2000_gives_every_bit() {
+    let folder = Folder::new();
+    let encoded = from_hex(HIGH_THROUGHPUT_JPEG_2000);
+    let slice = Written::slice(0.0, 0).bits(16, 16, false).fragments(&[0], &[&encoded]);
+    folder.write_as(HIGH_THROUGHPUT, "0", slice);
+    assert_eq!(voxels(folder.open()), (0..12).map(|voxel| voxel * 300).collect::<Vec<_>>());
 }
 
 #[test]

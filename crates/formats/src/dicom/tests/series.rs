@@ -69,11 +69,7 @@ fn a_scout_beside_a_volume_is_left_out_and_said() {
 fn missing_slices_are_told_with_numbers() {
     let reader = Folder::of_slices(&[0.0, 1.0, 2.0, 5.0, 6.0]).open();
     assert_eq!(reader.desc().spacing_mm.z, 1.5);
-    assert!(
-        has_note(reader.as_ref(), "2 slices are missing, the first after slice 3"),
-        "{:?}",
-        reader.notes()
-    );
+    assert!(has_note(reader.as_ref(), "slices missing: 2, the first after slice 3"), "{:?}", reader.notes());
 }
 
 #[test]

@@ -21,6 +21,7 @@ pub(super) const JPEG_BASELINE: &str = "1.2.840.10008.1.2.4.50";
 pub(super) const JPEG_LOSSLESS: &str = "1.2.840.10008.1.2.4.70";
 pub(super) const JPEG_LS: &str = "1.2.840.10008.1.2.4.80";
 pub(super) const JPEG_2000: &str = "1.2.840.10008.1.2.4.90";
+pub(super) const HIGH_THROUGHPUT: &str = "1.2.840.10008.1.2.4.201";
 
 /// Columns and rows of every frame that is written here.
 pub(super) const COLUMNS: usize = 4;
@@ -78,11 +79,6 @@ impl Written {
 
     pub(super) fn without(mut self, tag: Tag) -> Self {
         self.0.remove_element(name(tag));
-        self
-    }
-
-    pub(super) fn voxels8(mut self, voxels: &[u8]) -> Self {
-        self.0.put(DataElement::new(name(tag::PIXEL_DATA), VR::OB, PrimitiveValue::U8(voxels.into())));
         self
     }
 
