@@ -1,2 +1,68 @@
-//! x
-fn main() {}
+//! The `glassbrick` command: tells what volumes are, draws them, and reports what it drew.
+//!
+//! A command line is understood in two stages: [`args`] holds what was typed, [`job`] what it means, as plain data that
+//! has been checked. [`info`], [`render`] and [`demo`] then do the work by the `glassbrick` library alone.
+
+mod args;
+mod demo;
+mod figures;
+mod info;
+mod job;
+mod parse;
+mod progress;
+mod render;
+mod terminal;
+mod usage;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::Parser;
+
+use args::{Cli, Command};
+use job::{InfoJob, RenderJob};
+use usage::UsageError;
+
+const EXIT_FAILURE: u8 = 1;
+const EXIT_USAGE: u8 = 2;
+
+fn main() -> ExitCode {
+    let start = Instant::now();
+    let words: Vec<OsString> = std::env::args_os().collect();
+    let cli = match Cli::try_parse_from(&words) {
+        Ok(cli) => cli,
+        Err(error) if error.use_stderr() => {
+            return usage_failure(&usage::condensed(&error.render().to_string()), &words);
+        }
+        Err(help_or_version) => {
+            return match terminal::print(help_or_version.render().to_string().trim_end()) {
+                Ok(()) => ExitCode::SUCCESS,
+                Err(error) => failure(&error),
+            };
+        }
+    };
+    match run(&cli.command, start) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.is::<UsageError>() => usage_failure(&error.to_string(), &words),
+        Err(error) => failure(&error),
+    }
+}
+
+fn run(command: &Command, start: Instant) -> anyhow::Result<()> {
+    match command {
+        Command::Info(args) => info::run(&InfoJob::new(args)?, start),
+        Command::Render(args) => render::run(&RenderJob::new(args)?, start),
+        Command::Demo(args) => demo::run(args, start),
+    }
+}
+
+fn failure(error: &anyhow::Error) -> ExitCode {
+    terminal::tell_error(&terminal::with_causes(error));
+    ExitCode::from(EXIT_FAILURE)
+}
+
+fn usage_failure(message: &str, words: &[OsString]) -> ExitCode {
+    terminal::tell_error(&format!("{message}; {}", usage::see_help(words)));
+    ExitCode::from(EXIT_USAGE)
+}

@@ -36,7 +36,7 @@ pub use auto_transfer_function::auto_transfer_function;
 pub use camera_file::read_camera;
 pub use encode::{
     AnimationDesc, AnimationFormat, AnimationWriter, Background, OutputFormat, PictureFormat, check_output,
-    write_picture,
+    check_text_file, write_picture, write_text_file,
 };
 pub use error::Error;
 pub use glassbrick_formats::{OpenOptions, RawLayout};

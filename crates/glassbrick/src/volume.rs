@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use glassbrick_brick_store::{CachedSource, FlatSource};
 use glassbrick_formats::OpenOptions;
-use glassbrick_volume::{BrickLayout, BrickSource, VolumeDesc, VolumeReader};
+use glassbrick_volume::{BrickLayout, BrickSource, VolumeDesc, VolumeReader, VoxelCountTable};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::{Error, Histogram, process_memory};
@@ -113,6 +113,14 @@ impl Volume {
     pub fn histogram(&self) -> Result<Histogram, Error> {
         // Past the cache, so that measuring leaves no trace in it.
         Ok(self.threads.install(|| Histogram::sample(self.source.source()))?)
+    }
+
+    /// The voxel-count table of every brick, by place in the grid.
+    ///
+    /// # Errors
+    /// When the voxels cannot be read.
+    pub fn voxel_count_tables(&self) -> Result<Arc<Vec<VoxelCountTable>>, Error> {
+        Ok(self.threads.install(|| self.source.voxel_count_tables(0))?)
     }
 
     /// How long the one scan for the bricks' ranges took.

@@ -14,12 +14,14 @@ mod picture;
 mod png;
 mod report_text;
 mod srgb;
+mod text_file;
 mod write_aside;
 
 pub use animation::{AnimationDesc, AnimationWriter};
 pub use background::Background;
 pub use output_format::{AnimationFormat, OutputFormat, PictureFormat};
 pub use picture::write_picture;
+pub use text_file::{check_text_file, write_text_file};
 
 use std::path::Path;
 

@@ -1,0 +1,43 @@
+//! What was typed: flags and their values one by one, in clap's terms. What they mean together is in [`job`](crate::job).
+
+mod choices;
+mod demo;
+mod info;
+mod input;
+mod render;
+mod view;
+
+use clap::{Parser, Subcommand};
+
+pub use choices::{
+    BackendChoice, DemoSize, EndianChoice, ModeChoice, PassChoice, ShadingChoice, SkipChoice, ViewChoice,
+};
+pub use demo::DemoArgs;
+pub use info::InfoArgs;
+pub use input::{InputArgs, RawArgs};
+pub use render::RenderArgs;
+pub use view::ViewArgs;
+
+/// Renders volumes that do not fit into memory, and tells with every picture what it drew and what it skipped.
+#[derive(Parser)]
+#[command(name = "glassbrick", version, arg_required_else_help = false)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Tells what a volume is and, with a transfer function, what that needs of it
+    Info(InfoArgs),
+    /// Draws a picture of a volume, or a turn around it
+    Render(Box<RenderArgs>),
+    /// Makes a body, draws it and shows the report: a first look that needs no data
+    Demo(DemoArgs),
+}
+
+/// What `render --help` and `info --help` tell of presets.
+fn presets_help() -> String {
+    let line = |preset: &glassbrick::Preset| format!("  {:<10} {}\n", preset.name, preset.summary);
+    format!("Presets for --tf:\n{}", glassbrick::PRESETS.iter().map(line).collect::<String>())
+}

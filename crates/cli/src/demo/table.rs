@@ -1,0 +1,35 @@
+use comfy_table::presets::UTF8_FULL_CONDENSED;
+use comfy_table::{Cell, CellAlignment, Table};
+use glassbrick::FrameReport;
+
+use super::DemoPicture;
+use crate::figures::{count, percent};
+
+const HEADER: [&str; 9] =
+    ["picture", "bricks", "empty", "in frustum", "occluded", "rendered", "fraction", "samples", "ms"];
+
+/// What each picture took: how many bricks each stage left, and its time.
+pub fn table(drawn: &[(DemoPicture, FrameReport)]) -> String {
+    let mut table = Table::new();
+    table.load_style(UTF8_FULL_CONDENSED).set_header(HEADER);
+    for (picture, report) in drawn {
+        let bricks = report.bricks;
+        let stages = [bricks.total, bricks.empty, bricks.in_frustum, bricks.occluded, bricks.rendered];
+        let mut row = vec![picture.shows.to_owned()];
+        row.extend(stages.map(|bricks| count(bricks as u64)));
+        row.push(percent(bricks.rendered_fraction()));
+        row.push(report.samples.map_or("—".to_owned(), count));
+        row.push(format!("{:.1}", report.time_ms.render));
+        table.add_row(aligned(row));
+    }
+    table.to_string()
+}
+
+/// Words to the left, numbers to the right.
+fn aligned(row: Vec<String>) -> Vec<Cell> {
+    let align = |(column, text)| {
+        let alignment = if column == 0 { CellAlignment::Left } else { CellAlignment::Right };
+        Cell::new(text).set_alignment(alignment)
+    };
+    row.into_iter().enumerate().map(align).collect()
+}

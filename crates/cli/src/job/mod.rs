@@ -1,0 +1,17 @@
+//! What was meant: the flags of [`args`](crate::args) put together, checked against each other, and the files of
+//! settings that they name read. Everything here is found out before the first voxel is.
+
+mod info;
+mod input;
+mod output;
+mod render;
+mod settings;
+mod transfer_function;
+mod viewpoint;
+
+pub use info::InfoJob;
+pub use input::InputJob;
+pub use output::Output;
+pub use render::RenderJob;
+pub use transfer_function::TransferFunctionChoice;
+pub use viewpoint::{View, turned};

@@ -1,0 +1,84 @@
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, bail};
+use glassbrick::{
+    Background, LevelChoice, NearlyEmpty, RenderRequest, RenderSettings, TransferFunction, check_text_file,
+};
+
+use super::output::check_nothing_read_is_overwritten;
+use super::settings::{idle_flags, render_settings};
+use super::{InputJob, Output, TransferFunctionChoice, View};
+use crate::args::{BackendChoice, RenderArgs};
+use crate::usage::UsageError;
+
+/// Which pictures of which volume, and where they go.
+pub struct RenderJob {
+    pub input: InputJob,
+    pub transfer_function: TransferFunctionChoice,
+    pub view: View,
+    pub size: [u32; 2],
+    pub step_voxels: f64,
+    pub settings: RenderSettings,
+    pub nearly_empty: NearlyEmpty,
+    pub level: LevelChoice,
+    pub repeat: usize,
+    pub background: Background,
+    pub output: Output,
+    pub report: Option<PathBuf>,
+    /// What the user should know of the flags, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+impl RenderJob {
+    /// # Errors
+    /// When flags contradict each other, or a file that is named cannot be used.
+    pub fn new(args: &RenderArgs) -> Result<Self> {
+        if args.backend == BackendChoice::Gpu {
+            bail!("--backend gpu: the GPU renderer is not built in this version; use --backend cpu");
+        }
+        let background = args.background.unwrap_or_default();
+        let output = Output::new(&args.output, args.frames, background)?;
+        check_report(args, &output)?;
+        Ok(Self {
+            input: InputJob::new(&args.input, args.memory),
+            transfer_function: TransferFunctionChoice::new(&args.tf)?,
+            view: View::new(&args.view)?,
+            size: args.size,
+            step_voxels: args.step,
+            settings: render_settings(args),
+            nearly_empty: NearlyEmpty { alpha: args.alpha, beta: args.beta },
+            level: args.level,
+            repeat: args.repeat as usize,
+            background,
+            warnings: idle_flags(args, output.keeps_alpha()),
+            output,
+            report: args.report.clone(),
+        })
+    }
+
+    /// What is to be drawn with a transfer function.
+    pub fn request(&self, transfer_function: TransferFunction) -> RenderRequest {
+        RenderRequest {
+            transfer_function,
+            size: self.size,
+            step_voxels: self.step_voxels,
+            settings: self.settings,
+            nearly_empty: self.nearly_empty,
+            level: self.level,
+        }
+    }
+}
+
+fn check_report(args: &RenderArgs, output: &Output) -> Result<()> {
+    if let Some(report) = &args.report {
+        if output.files().contains(report) {
+            let what =
+                format!("{}: is named for the picture and for the report; name two files", report.display());
+            return Err(UsageError(what).into());
+        }
+        check_text_file(report)?;
+    }
+    let read = [Some(args.input.path.as_path()), Some(Path::new(&args.tf)), args.view.camera.as_deref()];
+    let read: Vec<&Path> = read.into_iter().flatten().collect();
+    check_nothing_read_is_overwritten(output.files().iter().chain(&args.report), &read)
+}

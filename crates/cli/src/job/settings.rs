@@ -1,0 +1,41 @@
+//! The renderer's settings, and what of the flags does nothing.
+
+use glassbrick::{Mode, Phong, RenderSettings, Skip};
+
+use crate::args::{ModeChoice, RenderArgs, ShadingChoice, SkipChoice};
+
+/// How frames are drawn.
+pub fn render_settings(args: &RenderArgs) -> RenderSettings {
+    RenderSettings {
+        mode: match args.mode {
+            ModeChoice::Dvr => Mode::Dvr,
+            ModeChoice::Mip => Mode::Mip,
+            ModeChoice::Minip => Mode::Minip,
+            ModeChoice::Mean => Mode::Mean,
+        },
+        shading: match args.shading {
+            ShadingChoice::Off => None,
+            ShadingChoice::Phong => Some(Phong::default()),
+        },
+        opacity_cutoff: args.opacity_cutoff,
+        skip: match args.skip {
+            SkipChoice::None => Skip::None,
+            SkipChoice::Empty => Skip::Empty,
+            SkipChoice::All => Skip::All,
+        },
+    }
+}
+
+/// Flags that were given and do nothing, a sentence each.
+pub fn idle_flags(args: &RenderArgs, keeps_alpha: bool) -> Vec<String> {
+    let idle = [
+        (args.pass.is_some(), "--pass does nothing: it concerns GPUs, and the CPU draws by layers"),
+        (args.gpu_memory.is_some(), "--gpu-memory does nothing: no GPU draws; the CPU's limit is --memory"),
+        (
+            args.shading != ShadingChoice::Off && args.mode != ModeChoice::Dvr,
+            "--shading does nothing: it concerns mode dvr alone",
+        ),
+        (args.background.is_some() && keeps_alpha, "--background does nothing: EXR keeps its alpha"),
+    ];
+    idle.into_iter().filter(|(is_idle, _)| *is_idle).map(|(_, what)| what.to_owned()).collect()
+}
