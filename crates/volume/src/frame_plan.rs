@@ -60,9 +60,13 @@ impl FramePlan {
 }
 
 /// The eye's brick on the unbounded lattice; for an orthographic camera the corner brick that faces the viewer.
+///
+/// The eye is rounded to `f32` as samples are. Rounding keeps order, so on each axis no sample lies on the other side
+/// of the eye than its ray goes, and a ray never comes back towards the eye's brick.
 pub fn eye_brick(grid: &BrickGrid, rays: &FrameRays) -> I64Vec3 {
     if rays.is_perspective() {
-        return ((rays.eye_voxel + 0.5) / f64::from(grid.layout.core())).floor().as_i64vec3();
+        let eye_voxel = rays.eye_voxel.as_vec3().as_dvec3();
+        return ((eye_voxel + 0.5) / f64::from(grid.layout.core())).floor().as_i64vec3();
     }
     let last = grid.counts.as_i64vec3() - 1;
     I64Vec3::select(rays.forward_voxel.cmpge(DVec3::ZERO), I64Vec3::ZERO, last)
@@ -127,6 +131,17 @@ mod tests {
                 ..Camera::framing(desc, NamedView::Front)
             });
         }
+    }
+
+    #[test]
+    fn layers_are_a_front_to_back_order_for_an_eye_off_a_face_by_less_than_samples_are_rounded() {
+        let eye_mm = DVec3::new(40.0, 29.499_999_999, 40.0);
+        layers_are_a_front_to_back_order(|desc| Camera {
+            eye_mm,
+            target_mm: eye_mm - DVec3::new(0.0, 1e-7, 1.0),
+            up: DVec3::X,
+            ..Camera::framing(desc, NamedView::Front)
+        });
     }
 
     #[test]
