@@ -113,12 +113,20 @@ impl VoxelCountTable {
     pub fn fractions(&self, band: &Band, rescale: Rescale) -> BandFractions {
         let [low, high] = if rescale.slope < 0.0 { [band.high, band.low] } else { [band.low, band.high] }
             .map(|value| rescale.stored(value));
-        let not_above = (0..VCT_BINS).rev().find(|&bin| self.bins.span(bin)[0] < high && self.holds(bin));
-        let below = (0..VCT_BINS).rev().find(|&bin| self.bins.span(bin)[1] <= low && self.holds(bin));
-        let fraction = |bin: Option<usize>| {
-            bin.map_or(0.0, |bin| f64::from(self.cumulative[bin]) / f64::from(self.voxels().max(1)))
-        };
+        let before_high = self.voxels_up_to(|bin| self.bins.span(bin)[0] < high);
+        let up_to_low = self.voxels_up_to(|bin| self.bins.span(bin)[1] <= low);
+        let all = self.voxels();
+        // Under a negative slope, what is stored after the band is below it.
+        let [not_above, below] =
+            if rescale.slope < 0.0 { [all - up_to_low, all - before_high] } else { [before_high, up_to_low] };
+        let fraction = |voxels: u32| f64::from(voxels) / f64::from(all.max(1));
         BandFractions { r1: fraction(not_above), r2: fraction(below) }
+    }
+
+    /// Voxels up to the last bin that holds any and for which `is_before` is true.
+    fn voxels_up_to(&self, is_before: impl Fn(usize) -> bool) -> u32 {
+        let last = (0..VCT_BINS).rev().find(|&bin| self.holds(bin) && is_before(bin));
+        last.map_or(0, |bin| self.cumulative[bin])
     }
 
     fn holds(&self, bin: usize) -> bool {
@@ -167,7 +175,8 @@ mod tests {
     fn a_negative_slope_turns_the_band_round() {
         let table = bytes(&[0, 1, 2, 3]);
         let negative = Rescale { slope: -1.0, intercept: 0.0 };
-        assert_eq!(table.fractions(&Band { low: -2.5, high: -0.5 }, negative).visible(), 0.5);
+        let fractions = table.fractions(&Band { low: -2.5, high: 0.0 }, negative);
+        assert_eq!(fractions, BandFractions { r1: 0.75, r2: 0.25 }, "-3 is below, 0 is not in the open band");
     }
 
     #[test]
