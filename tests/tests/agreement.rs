@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use glassbrick::{
-    BrickLayout, Endian, Frame, NearlyEmpty, OpenOptions, OpenSettings, RawLayout, RenderRequest, Skip,
-    Volume,
+    BrickLayout, Endian, Frame, InstructionSet, NearlyEmpty, OpenOptions, OpenSettings, RawLayout,
+    RenderRequest, Skip, Volume,
 };
 use glassbrick_tests::drawing::{camera, desc, draw, draw_with, native_bytes, request};
 use glassbrick_tests::reference::{self, Mode, render};
@@ -23,6 +23,11 @@ fn same_picture(name: &str, what: &str, a: &Frame, b: &Frame) {
     }
 }
 
+/// What this processor can draw with.
+fn instruction_sets() -> impl Iterator<Item = InstructionSet> {
+    InstructionSet::ALL.into_iter().filter(|set| set.is_available())
+}
+
 fn with(layout: BrickLayout) -> OpenSettings {
     OpenSettings { layout, ..OpenSettings::default() }
 }
@@ -32,11 +37,15 @@ fn the_cpu_draws_every_scene_as_the_reference_does() {
     let mut off = Vec::new();
     for scene in scenes() {
         let truth = render(&scene.reference());
-        for edge in [32, 64] {
-            let drawn = draw(scene, edge);
-            let difference = compare(&drawn.frame.rgba, &truth.rgba);
-            if !difference.is_within(CPU) {
-                off.push(format!("{}, bricks of {edge}: {difference}", scene.name));
+        for set in instruction_sets() {
+            for edge in [32, 64] {
+                let drawn = draw_with(scene, &with(BrickLayout { edge, halo: 2 }), |request| {
+                    request.instruction_set = Some(set);
+                });
+                let difference = compare(&drawn.frame.rgba, &truth.rgba);
+                if !difference.is_within(CPU) {
+                    off.push(format!("{}, {}, bricks of {edge}: {difference}", scene.name, set.name()));
+                }
             }
         }
     }

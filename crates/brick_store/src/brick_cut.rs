@@ -33,5 +33,5 @@ fn cut<S: Stored>(voxels: &FlatVoxels, grid: &BrickGrid, brick: UVec3) -> Brick 
             row[before + inside..].fill(right);
         }
     }
-    Brick { edge: grid.layout.edge, voxels: S::Kept::into_voxels(kept) }
+    Brick::new(grid.layout.edge, S::Kept::into_voxels(kept))
 }

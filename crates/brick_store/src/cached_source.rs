@@ -66,7 +66,7 @@ impl<S: BrickSource> CachedSource<S> {
     /// When the budget does not hold a brick for each thread.
     pub fn new(source: S, budget_bytes: u64, threads: usize) -> Result<Self, SourceError> {
         let layout = source.grid(0).layout;
-        let one_brick = brick_bytes(source.desc().stored_type, layout.voxels());
+        let one_brick = brick_bytes(source.desc().stored_type, layout);
         let held_bytes = one_brick * threads as u64;
         let Some(kept_bytes) = budget_bytes.checked_sub(held_bytes) else {
             return Err(SourceError::BudgetTooSmall { budget: budget_bytes, threads, needed: held_bytes });

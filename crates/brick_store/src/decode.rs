@@ -1,4 +1,4 @@
-use glassbrick_volume::{Brick, Endian, StoredType, Voxels};
+use glassbrick_volume::{Brick, BrickCells, BrickLayout, Endian, StoredType, Voxels};
 
 /// A type that voxels are kept in memory in.
 pub trait Kept: Copy + Default + PartialOrd + Send + Sync + 'static {
@@ -135,13 +135,13 @@ macro_rules! with_stored {
 }
 pub(crate) use with_stored;
 
-/// Size in memory of a brick of kept voxels.
-pub fn brick_bytes(stored_type: StoredType, voxels: usize) -> u64 {
+/// Size in memory of a brick of kept voxels, cells included.
+pub fn brick_bytes(stored_type: StoredType, layout: BrickLayout) -> u64 {
     fn kept_bytes<S: Stored>() -> usize {
         size_of::<S::Kept>()
     }
     let bytes = with_stored!(stored_type, Endian::NATIVE, kept_bytes());
-    ((voxels + Brick::PADDING) * bytes) as u64
+    ((layout.voxels() + Brick::PADDING) * bytes + BrickCells::bytes(layout.edge)) as u64
 }
 
 #[cfg(test)]

@@ -10,16 +10,30 @@
 mod executor;
 mod kernel;
 mod scalar;
+mod simd;
 mod tiles;
 
 use glassbrick_volume::{BrickSource, ReadError};
 
 pub use executor::{CpuFrame, CpuScene};
+pub use simd::InstructionSet;
 
 /// Draws a planned frame on the threads of the current rayon pool.
 ///
 /// # Errors
 /// When a brick cannot be read.
-pub fn draw(source: &dyn BrickSource, scene: &CpuScene) -> Result<CpuFrame, ReadError> {
-    scalar::draw(source, scene)
+///
+/// # Panics
+/// When this processor does not have the instructions.
+pub fn draw(
+    source: &dyn BrickSource,
+    scene: &CpuScene,
+    instruction_set: InstructionSet,
+) -> Result<CpuFrame, ReadError> {
+    assert!(instruction_set.is_available(), "this processor has no {}", instruction_set.name());
+    let is_large = source.grid(scene.plan.level).layout.edge > simd::LARGEST_EDGE;
+    if instruction_set == InstructionSet::Scalar || is_large {
+        return scalar::draw(source, scene);
+    }
+    simd::draw(source, scene, instruction_set)
 }

@@ -39,6 +39,7 @@ pub use encode::{
     check_text_file, write_picture, write_text_file,
 };
 pub use error::Error;
+pub use glassbrick_cpu::InstructionSet;
 pub use glassbrick_formats::{OpenOptions, RawLayout};
 pub use glassbrick_volume::{
     Band, BrickCounts, BrickLayout, BrickSource, Camera, ControlPoint, Endian, Frame, FrameReport, Mode,

@@ -2,7 +2,7 @@ use std::time::{Duration, Instant};
 
 use glam::UVec2;
 use glassbrick_brick_store::CacheCounts;
-use glassbrick_cpu::{CpuFrame, CpuScene};
+use glassbrick_cpu::{CpuFrame, CpuScene, InstructionSet};
 use glassbrick_volume::{
     BakedTransferFunction, BrickCounts, BrickSource, Camera, Frame, FramePlan, FrameRays, FrameReport, Mode,
     NearlyEmpty, RenderSettings, ResidencyCounts, Skip, StageTimes, TransferFunction, VisibleBricks,
@@ -26,6 +26,8 @@ pub struct RenderRequest {
     /// Nearly empty bricks to drop, in direct volume rendering; loses something of the picture.
     pub nearly_empty: NearlyEmpty,
     pub level: LevelChoice,
+    /// What the processor draws with; the best that it has where nothing is said.
+    pub instruction_set: Option<InstructionSet>,
 }
 
 impl RenderRequest {
@@ -38,6 +40,7 @@ impl RenderRequest {
             settings: RenderSettings::default(),
             nearly_empty: NearlyEmpty::KEEP,
             level: LevelChoice::Auto,
+            instruction_set: None,
         }
     }
 }
@@ -116,7 +119,11 @@ impl<'a> Renderer<'a> {
             volume: self.volume.desc().clone(),
             not_finite: self.volume.source.not_finite(),
             backend: "cpu",
-            adapter: self.volume.adapter(),
+            adapter: format!(
+                "CPU, {}, {} threads",
+                self.instruction_set().name(),
+                self.volume.threads.current_num_threads()
+            ),
             pass: "layers",
             mode: self.request.settings.mode.name(),
             size: self.request.size,
@@ -165,9 +172,14 @@ impl<'a> Renderer<'a> {
             transfer_function: &self.transfer_function,
             settings: self.request.settings,
         };
-        let drawn = self.volume.threads.install(|| glassbrick_cpu::draw(source, &scene))?;
+        let drawn =
+            self.volume.threads.install(|| glassbrick_cpu::draw(source, &scene, self.instruction_set()))?;
         render_all.push(start.elapsed().as_secs_f64() * 1e3);
         Ok((drawn, plan_time, plan.bricks()))
+    }
+
+    fn instruction_set(&self) -> InstructionSet {
+        self.request.instruction_set.unwrap_or_else(InstructionSet::best)
     }
 
     fn brick_counts(&self, drawn: &CpuFrame, in_frustum: usize) -> BrickCounts {
@@ -229,21 +241,20 @@ impl Volume {
     pub fn render(&self, request: RenderRequest, camera: &Camera) -> Result<Rendered, Error> {
         Renderer::new(self, request)?.draw(camera, 1)
     }
-
-    fn adapter(&self) -> String {
-        format!("CPU, scalar, {} threads", self.threads.current_num_threads())
-    }
 }
 
 fn check(request: &RenderRequest) -> Result<(), Error> {
     if request.size.iter().any(|pixels| !(1..=MOST_PIXELS).contains(pixels)) {
         return Err(Error::View("a picture has 1 to 32768 pixels on a side"));
     }
+    if request.instruction_set.is_some_and(|set| !set.is_available()) {
+        return Err(Error::View("this processor does not have the instructions that were asked for"));
+    }
     let unit = 0.0..=1.0;
     if !unit.contains(&request.nearly_empty.alpha) || !unit.contains(&request.nearly_empty.beta) {
         return Err(Error::View("alpha and beta lie between 0 and 1"));
     }
-    if !(request.settings.opacity_cutoff > 0.0) {
+    if request.settings.opacity_cutoff.is_nan() || request.settings.opacity_cutoff <= 0.0 {
         return Err(Error::View("the opacity cutoff lies above 0; 1 never stops"));
     }
     Ok(())

@@ -1,6 +1,6 @@
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use crate::{BrickGrid, BrickId, BrickRange, ReadError, VolumeDesc, VoxelCountTable};
+use crate::{BrickCells, BrickGrid, BrickId, BrickRange, ReadError, VolumeDesc, VoxelCountTable};
 
 /// Where bricks come from. Renderers and residency know nothing else of files.
 pub trait BrickSource: Send + Sync {
@@ -42,6 +42,8 @@ pub struct Brick {
     /// Voxels along each axis.
     pub edge: u32,
     pub voxels: Voxels,
+    /// Found when they are first asked for.
+    cells: OnceLock<BrickCells>,
 }
 
 /// Voxels in the type that they are kept in memory in; `u32`, `i32` and `f64` were rounded to `f32`.
@@ -58,14 +60,25 @@ impl Brick {
     /// Elements behind the last voxel.
     pub const PADDING: usize = 16;
 
-    /// Size in memory, in bytes.
+    /// A brick of edge³ voxels and the padding behind them.
+    pub fn new(edge: u32, voxels: Voxels) -> Self {
+        Self { edge, voxels, cells: OnceLock::new() }
+    }
+
+    /// The ranges of the brick's cells.
+    pub fn cells(&self) -> &BrickCells {
+        self.cells.get_or_init(|| BrickCells::of(self))
+    }
+
+    /// Size in memory, in bytes, cells included.
     pub fn bytes(&self) -> usize {
-        match &self.voxels {
+        let voxels = match &self.voxels {
             Voxels::U8(voxels) => voxels.len(),
             Voxels::I8(voxels) => voxels.len(),
             Voxels::U16(voxels) => 2 * voxels.len(),
             Voxels::I16(voxels) => 2 * voxels.len(),
             Voxels::F32(voxels) => 4 * voxels.len(),
-        }
+        };
+        voxels + BrickCells::bytes(self.edge)
     }
 }

@@ -16,6 +16,7 @@
 //! assert_eq!(bricks.counts, UVec3::new(9, 9, 5));
 //! ```
 
+mod brick_cells;
 mod brick_layout;
 mod brick_source;
 mod camera;
@@ -32,6 +33,7 @@ mod volume_desc;
 mod volume_reader;
 mod voxel_count_table;
 
+pub use brick_cells::{BrickCells, CELL_EDGE_LOG2};
 pub use brick_layout::{BrickGrid, BrickId, BrickLayout};
 pub use brick_source::{Brick, BrickSource, Voxels};
 pub use camera::{Camera, CameraBasis, DEFAULT_FOV_Y_DEG, NamedView, Projection};

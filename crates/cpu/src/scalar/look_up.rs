@@ -40,8 +40,16 @@ impl<'a> LookUp<'a> {
     }
 
     /// Opacity per unit length.
-    pub fn opacity(&self, entry: Entry) -> f32 {
+    fn opacity(&self, entry: Entry) -> f32 {
         between(&self.baked.opacity, entry)
+    }
+
+    /// The pixel of a projected stored value: a(v)·c(v) with alpha a(v).
+    pub fn projected(&self, stored: f32) -> [f32; 4] {
+        let entry = self.entry(stored);
+        let opacity = self.opacity(entry);
+        let [r, g, b] = self.color(entry).map(|component| component * opacity);
+        [r, g, b, opacity]
     }
 
     /// Linear light.

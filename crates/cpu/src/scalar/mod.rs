@@ -12,7 +12,7 @@ use glassbrick_volume::{BrickSource, FrameRays, Mode, PixelRect, Ray, ReadError,
 use crate::executor::{CpuFrame, CpuScene, draw_with};
 use crate::kernel::{BrickView, Kernel, overlap};
 use interval::samples_in_box;
-use look_up::LookUp;
+pub use look_up::LookUp;
 use projector::{Dvr, Extremum, Headlight, Mean, Projector};
 use sampler::{Sampler, Voxel};
 
@@ -41,7 +41,7 @@ pub fn draw(source: &dyn BrickSource, scene: &CpuScene) -> Result<CpuFrame, Read
 }
 
 /// The inverse transpose, by which surfaces' normals go from voxel to world space.
-fn normal_from_gradient(world_from_voxel: glam::DMat3) -> Mat3 {
+pub fn normal_from_gradient(world_from_voxel: glam::DMat3) -> Mat3 {
     world_from_voxel.inverse().transpose().as_mat3()
 }
 

@@ -165,7 +165,7 @@ impl Projector for Extremum<'_> {
         if pixel.number == NO_SAMPLE {
             return ([0.0; 4], NO_SAMPLE);
         }
-        (projected(&self.look_up, self.sign * pixel.signed), pixel.number)
+        (self.look_up.projected(self.sign * pixel.signed), pixel.number)
     }
 }
 
@@ -212,14 +212,6 @@ impl Projector for Mean<'_> {
         if pixel.samples == 0 {
             return ([0.0; 4], NO_SAMPLE);
         }
-        (projected(&self.look_up, (pixel.sum / f64::from(pixel.samples)) as f32), NO_SAMPLE)
+        (self.look_up.projected((pixel.sum / f64::from(pixel.samples)) as f32), NO_SAMPLE)
     }
-}
-
-/// The pixel of a projected stored value: a(v)·c(v) with alpha a(v).
-fn projected(look_up: &LookUp, stored: f32) -> [f32; 4] {
-    let entry = look_up.entry(stored);
-    let opacity = look_up.opacity(entry);
-    let [r, g, b] = look_up.color(entry).map(|component| component * opacity);
-    [r, g, b, opacity]
 }

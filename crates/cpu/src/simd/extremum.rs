@@ -1,0 +1,110 @@
+use super::brick::{LaneBrick, LaneRays};
+use super::lanes::Lanes;
+use super::occupancy::Occupancy;
+use super::packet::{Column, PACKET, Packet};
+use super::projection::Projection;
+use super::voxel::LaneVoxel;
+use crate::kernel::{BrickView, NO_SAMPLE};
+use crate::scalar::LookUp;
+
+/// Maximum and minimum intensity projection, of stored values.
+pub struct LaneExtremum<'a> {
+    pub look_up: LookUp<'a>,
+    /// 1 to look for the largest stored value, −1 for the smallest.
+    pub sign: f32,
+    /// Whether cells that cannot change a ray's pixel are leapt over.
+    pub leaps: bool,
+}
+
+#[derive(Clone, Copy)]
+pub struct ExtremumState {
+    /// The stored value times the sign; −∞ before the first sample.
+    signed: Column,
+    number: [i32; PACKET],
+}
+
+impl Projection for LaneExtremum<'_> {
+    type State = ExtremumState;
+    /// The largest signed stored value of each cell.
+    type Cells = Option<Vec<f32>>;
+
+    fn start(&self) -> ExtremumState {
+        ExtremumState { signed: [f32::NEG_INFINITY; PACKET], number: [NO_SAMPLE as i32; PACKET] }
+    }
+
+    fn unchanged_by(&self, packet: &Packet<ExtremumState>, [min, max]: [f32; 2]) -> u32 {
+        let most = if self.sign > 0.0 { max } else { -min };
+        let signed = packet.state.signed.iter().enumerate();
+        signed.fold(0, |rays, (lane, &signed)| rays | u32::from(signed >= most) << lane)
+    }
+
+    fn cells(&self, brick: &BrickView) -> Option<Option<Vec<f32>>> {
+        let cells = || {
+            let cells = brick.brick.cells();
+            if self.sign > 0.0 { cells.max.clone() } else { cells.min.iter().map(|&min| -min).collect() }
+        };
+        Some(self.leaps.then(cells))
+    }
+
+    fn occupancy(_cells: &Option<Vec<f32>>) -> Option<&Occupancy> {
+        None
+    }
+
+    #[inline(always)]
+    fn march<L: Lanes, V: LaneVoxel>(
+        &self,
+        packet: &mut Packet<ExtremumState>,
+        first: usize,
+        brick: &LaneBrick<V>,
+        cells: &Option<Vec<f32>>,
+        last_sample: f32,
+    ) -> u64 {
+        let rays = LaneRays::<L>::load(packet, first);
+        let mut open = L::mask(packet.open() >> first);
+        let (mut number, last) = brick.interval::<L>(&rays);
+        let last = L::min(last, L::splat(last_sample));
+        let state = &mut packet.state;
+        let mut most = L::load(&state.signed[first..]);
+        let mut found = L::load_i(&state.number[first..]);
+        let (one, sign) = (L::splat(1.0), L::splat(self.sign));
+        let mut samples = 0;
+        loop {
+            open = L::both(open, L::ge(last, number));
+            if !L::any(open) {
+                break;
+            }
+            let sample = brick.sample::<L>(&rays, number, open);
+            let mut evaluated = sample.owned;
+            let mut forward = one;
+            if let Some(cells) = cells {
+                // SAFETY: the index is a cell's.
+                let most_in_cell = unsafe { L::gather(cells.as_ptr(), brick.cell_index::<L>(&sample)) };
+                let vacant = L::but_not(sample.owned, L::gt(most_in_cell, most));
+                if L::any(vacant) {
+                    evaluated = L::but_not(evaluated, vacant);
+                    forward = L::select(vacant, brick.leap::<L>(&rays, &sample, one), one);
+                }
+            }
+            if L::any(evaluated) {
+                samples += u64::from(L::mask_bits(evaluated).count_ones());
+                let place = brick.place::<L>(&sample);
+                let signed = L::mul(sign, brick.value::<L>(&place));
+                let more = L::both(evaluated, L::gt(signed, most));
+                most = L::select(more, signed, most);
+                found = L::select_i(more, L::to_i(number), found);
+            }
+            number = L::add(number, forward);
+        }
+        L::store(most, &mut state.signed[first..]);
+        L::store_i(found, &mut state.number[first..]);
+        samples
+    }
+
+    fn finish(&self, packet: &Packet<ExtremumState>, lane: usize) -> ([f32; 4], u32) {
+        let number = packet.state.number[lane] as u32;
+        if number == NO_SAMPLE {
+            return ([0.0; 4], NO_SAMPLE);
+        }
+        (self.look_up.projected(self.sign * packet.state.signed[lane]), number)
+    }
+}

@@ -1,0 +1,80 @@
+//! Vectors of rays: what kernels need of a set of instructions.
+
+/// Lanes of `f32` and `i32` that go through the same steps together.
+///
+/// # Safety
+/// The methods may use instructions that only some processors have. A type that implements this must only be used
+/// where the processor was seen to have them.
+pub unsafe trait Lanes: Copy {
+    /// Rays that go together.
+    const COUNT: usize;
+
+    type F: Copy;
+    type I: Copy;
+    type M: Copy;
+
+    fn splat(x: f32) -> Self::F;
+    fn splat_i(x: i32) -> Self::I;
+    /// Reads the first `COUNT` elements.
+    fn load(from: &[f32]) -> Self::F;
+    fn load_i(from: &[i32]) -> Self::I;
+    /// Writes the first `COUNT` elements.
+    fn store(x: Self::F, to: &mut [f32]);
+    fn store_i(x: Self::I, to: &mut [i32]);
+
+    fn add(a: Self::F, b: Self::F) -> Self::F;
+    fn sub(a: Self::F, b: Self::F) -> Self::F;
+    fn mul(a: Self::F, b: Self::F) -> Self::F;
+    fn div(a: Self::F, b: Self::F) -> Self::F;
+    /// a · b + c, rounded once or twice.
+    fn mul_add(a: Self::F, b: Self::F, c: Self::F) -> Self::F;
+    fn min(a: Self::F, b: Self::F) -> Self::F;
+    fn max(a: Self::F, b: Self::F) -> Self::F;
+    fn abs(a: Self::F) -> Self::F;
+    fn sqrt(a: Self::F) -> Self::F;
+    /// ⌊a⌋ for |a| below 2²².
+    fn floor(a: Self::F) -> Self::F;
+    /// Of whole numbers below 2²⁴.
+    fn to_i(a: Self::F) -> Self::I;
+    fn to_f(a: Self::I) -> Self::F;
+    fn bits(a: Self::F) -> Self::I;
+    fn from_bits(a: Self::I) -> Self::F;
+
+    fn add_i(a: Self::I, b: Self::I) -> Self::I;
+    fn and_i(a: Self::I, b: Self::I) -> Self::I;
+    fn shift_left<const BITS: u32>(a: Self::I) -> Self::I;
+    /// Keeps the sign.
+    fn shift_right<const BITS: u32>(a: Self::I) -> Self::I;
+
+    fn lt(a: Self::F, b: Self::F) -> Self::M;
+    fn ge(a: Self::F, b: Self::F) -> Self::M;
+    fn gt(a: Self::F, b: Self::F) -> Self::M;
+    fn gt_i(a: Self::I, b: Self::I) -> Self::M;
+    fn both(a: Self::M, b: Self::M) -> Self::M;
+    /// a, and not b.
+    fn but_not(a: Self::M, b: Self::M) -> Self::M;
+    /// The lanes whose bits are set.
+    fn mask(bits: u32) -> Self::M;
+    fn mask_bits(m: Self::M) -> u32;
+    /// `yes` where the mask is set, `no` elsewhere.
+    fn select(m: Self::M, yes: Self::F, no: Self::F) -> Self::F;
+    fn select_i(m: Self::M, yes: Self::I, no: Self::I) -> Self::I;
+
+    /// Whether any lane is set.
+    #[inline(always)]
+    fn any(m: Self::M) -> bool {
+        Self::mask_bits(m) != 0
+    }
+
+    /// Reads four bytes at each byte offset, aligned or not.
+    ///
+    /// # Safety
+    /// Four bytes must lie behind each offset.
+    unsafe fn gather_bytes(base: *const u8, offsets: Self::I) -> Self::I;
+
+    /// Reads the `f32` of each index.
+    ///
+    /// # Safety
+    /// Each index must lie in the array.
+    unsafe fn gather(base: *const f32, indices: Self::I) -> Self::F;
+}
