@@ -1,9 +1,9 @@
 //! Numbers as people read them.
 
 /// Significant digits of numbers whose exact value does not matter.
-const DIGITS: i32 = 6;
+const DIGITS: i32 = 7;
 
-/// A number with six significant digits at most, without trailing zeros.
+/// A number with seven significant digits at most, without trailing zeros.
 pub fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -63,7 +63,7 @@ mod tests {
         for (value, text) in [
             (0.0, "0"),
             (-1024.0, "-1024"),
-            (0.976_562_5, "0.976563"),
+            (0.976_562_5, "0.9765625"),
             (3071.0, "3071"),
             (1_234_567.0, "1234567"),
             (0.1 + 0.2, "0.3"),

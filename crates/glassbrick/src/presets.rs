@@ -136,6 +136,11 @@ pub fn preset(name: &str, value_range: [f64; 2]) -> Option<TransferFunction> {
 }
 
 impl Preset {
+    /// Whether it stretches over the volume's values, instead of standing at values of its own.
+    pub fn is_relative(&self) -> bool {
+        self.scale == Scale::Relative
+    }
+
     /// The preset as a transfer function; see [`preset`].
     pub fn transfer_function(&self, value_range: [f64; 2]) -> TransferFunction {
         let [low, high] = widened(value_range);

@@ -14,6 +14,9 @@ use crate::{Error, Volume, process_memory};
 /// Pixels along a side of a picture, at most.
 const MOST_PIXELS: u32 = 32_768;
 
+/// Memory that a pixel takes at least: colour, opacity and depth, and three bytes of its picture.
+const PIXEL_BYTES: u64 = 5 * size_of::<f32>() as u64 + 3;
+
 /// What is to be drawn, besides the volume and the camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderRequest {
@@ -246,6 +249,12 @@ impl Volume {
 fn check(request: &RenderRequest) -> Result<(), Error> {
     if request.size.iter().any(|pixels| !(1..=MOST_PIXELS).contains(pixels)) {
         return Err(Error::View("a picture has 1 to 32768 pixels on a side"));
+    }
+    let frame_bytes = request.size.iter().map(|&pixels| u64::from(pixels)).product::<u64>() * PIXEL_BYTES;
+    if process_memory::available_bytes().is_some_and(|available| frame_bytes > available) {
+        return Err(Error::View(
+            "a picture of this size does not fit into the memory that is free; make it smaller",
+        ));
     }
     if request.instruction_set.is_some_and(|set| !set.is_available()) {
         return Err(Error::View("this processor does not have the instructions that were asked for"));

@@ -8,7 +8,7 @@ mod text;
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
-use glassbrick::Volume;
+use glassbrick::{Mode, Volume};
 
 use crate::job::InfoJob;
 use crate::terminal;
@@ -44,7 +44,7 @@ pub fn run(job: &InfoJob, start: Instant) -> Result<()> {
     let open = opening.elapsed().saturating_sub(volume.scan_time());
     let measuring = Instant::now();
     let needs = match &job.transfer_function {
-        Some(choice) => Some(Needs::measure(&volume, &choice.for_volume(&volume)?)?),
+        Some(choice) => Some(Needs::measure(&volume, &choice.for_volume(&volume, Mode::Dvr)?)?),
         None => None,
     };
     let tables = volume.scan_time() + measuring.elapsed();

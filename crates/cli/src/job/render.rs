@@ -59,12 +59,12 @@ impl RenderJob {
     /// What is to be drawn with a transfer function.
     pub fn request(&self, transfer_function: TransferFunction) -> RenderRequest {
         RenderRequest {
-            transfer_function,
             size: self.size,
             step_voxels: self.step_voxels,
             settings: self.settings,
             nearly_empty: self.nearly_empty,
             level: self.level,
+            ..RenderRequest::new(transfer_function)
         }
     }
 }

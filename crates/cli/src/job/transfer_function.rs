@@ -1,7 +1,10 @@
 use std::path::Path;
 
 use anyhow::bail;
-use glassbrick::{PRESETS, Preset, TransferFunction, Volume, auto_transfer_function, read_transfer_function};
+use glassbrick::{
+    Mode, PRESETS, Preset, TransferFunction, Volume, auto_transfer_function, projection_transfer_function,
+    read_transfer_function,
+};
 
 /// A transfer function, as far as it can be known without the volume.
 pub enum TransferFunctionChoice {
@@ -31,13 +34,17 @@ impl TransferFunctionChoice {
         Ok(Self::File(read_transfer_function(path)?))
     }
 
-    /// The transfer function for a volume.
+    /// The transfer function for a volume, to be drawn in a mode.
     ///
     /// # Errors
     /// When its voxels cannot be read.
-    pub fn for_volume(&self, volume: &Volume) -> Result<TransferFunction, glassbrick::Error> {
+    pub fn for_volume(&self, volume: &Volume, mode: Mode) -> Result<TransferFunction, glassbrick::Error> {
         Ok(match self {
-            Self::Auto => auto_transfer_function(&volume.histogram()?),
+            Self::Auto if mode == Mode::Dvr => auto_transfer_function(&volume.histogram()?),
+            Self::Auto => projection_transfer_function(&volume.histogram()?),
+            Self::Preset(preset) if preset.is_relative() => {
+                preset.transfer_function(volume.histogram()?.typical_range())
+            }
             Self::Preset(preset) => preset.transfer_function(volume.value_range()),
             Self::File(function) => function.clone(),
         })

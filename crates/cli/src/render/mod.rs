@@ -23,9 +23,7 @@ pub fn run(job: &RenderJob, start: Instant) -> Result<()> {
     if let Some(path) = &job.report {
         write_text_file(path, &serde_json::to_string_pretty(&report::whole(&reports, &job.output))?)?;
     }
-    if let Some(first) = reports.first() {
-        terminal::warn(&first.warnings);
-    }
+    terminal::warn(&report::warnings(&reports));
     terminal::print(&summary::summary(&job.output, &reports))
 }
 
@@ -33,7 +31,7 @@ pub fn run(job: &RenderJob, start: Instant) -> Result<()> {
 fn draw(job: &RenderJob, start: Instant) -> Result<Vec<FrameReport>> {
     let volume = job.input.open()?;
     let progress = Progress::start("drawing");
-    let transfer_function = job.transfer_function.for_volume(&volume)?;
+    let transfer_function = job.transfer_function.for_volume(&volume, job.settings.mode)?;
     let camera = job.view.camera(volume.desc());
     let mut renderer = Renderer::new(&volume, job.request(transfer_function))?;
     let frames = job.output.frames();

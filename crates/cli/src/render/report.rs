@@ -18,13 +18,20 @@ pub fn whole(reports: &[FrameReport], output: &Output) -> Value {
         whole.peak_anon_bytes = whole.peak_anon_bytes.max(report.peak_anon_bytes);
         whole.peak_rss_bytes = whole.peak_rss_bytes.max(report.peak_rss_bytes);
         whole.residency.peak_bytes = whole.residency.peak_bytes.max(report.residency.peak_bytes);
-        for warning in &report.warnings {
-            if !whole.warnings.contains(warning) {
-                whole.warnings.push(warning.clone());
-            }
-        }
     }
+    whole.warnings = warnings(reports);
     let mut whole = report_json(&whole);
     whole["frames"] = reports.iter().map(report_json).collect();
     whole
+}
+
+/// The warnings of all frames, each once.
+pub fn warnings(reports: &[FrameReport]) -> Vec<String> {
+    let mut warnings: Vec<String> = Vec::new();
+    for warning in reports.iter().flat_map(|report| &report.warnings) {
+        if !warnings.contains(warning) {
+            warnings.push(warning.clone());
+        }
+    }
+    warnings
 }
