@@ -4,3 +4,4 @@ mod agreement;
 mod analytic_truth;
 mod comparing;
 mod fair_scenes;
+mod properties;
