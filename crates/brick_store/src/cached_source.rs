@@ -20,6 +20,9 @@ pub struct CachedSource<S> {
     kept: Cache<BrickId, Arc<Brick>, ByBytes, DefaultHashBuilder, CountEvictions>,
     evictions: Arc<AtomicU64>,
     budget_bytes: u64,
+    /// Of one brick.
+    brick_bytes: u64,
+    /// Of the bricks that threads work on.
     held_bytes: u64,
     peak_kept_bytes: AtomicU64,
     hits: AtomicU64,
@@ -84,6 +87,7 @@ impl<S: BrickSource> CachedSource<S> {
             source,
             evictions,
             budget_bytes,
+            brick_bytes: one_brick,
             held_bytes,
             peak_kept_bytes: AtomicU64::new(0),
             hits: AtomicU64::new(0),
@@ -149,6 +153,10 @@ impl<S: BrickSource> BrickSource for CachedSource<S> {
             self.hits.fetch_add(1, Ordering::Relaxed);
         }
         Ok(brick)
+    }
+
+    fn can_hold(&self, bricks: usize) -> bool {
+        self.brick_bytes.saturating_mul(bricks as u64) <= self.budget_bytes - self.held_bytes
     }
 
     fn not_finite(&self) -> u64 {

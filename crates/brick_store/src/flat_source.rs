@@ -151,6 +151,11 @@ impl BrickSource for FlatSource {
         Ok(Arc::new(cut_brick(&self.desc, &self.voxels, &self.grid, UVec3::new(id.x, id.y, id.z))))
     }
 
+    /// Bricks are cut anew each time, and nothing was promised of what becomes of them.
+    fn can_hold(&self, _bricks: usize) -> bool {
+        false
+    }
+
     fn not_finite(&self) -> u64 {
         self.scan.not_finite
     }

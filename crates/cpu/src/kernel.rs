@@ -7,7 +7,7 @@ pub trait Kernel: Sync {
     type Tile: Send;
 
     /// What is found out of a brick before its tiles are drawn.
-    type Prepared<'a>;
+    type Prepared<'a>: Send + Sync;
 
     /// A tile that has met no sample.
     fn start(&self, rays: &FrameRays, rect: PixelRect) -> Self::Tile;
@@ -20,6 +20,10 @@ pub trait Kernel: Sync {
 
     /// Adds a brick's samples to the pixels of a tile; returns how many were evaluated.
     fn add_brick(&self, tile: &mut Self::Tile, brick: &Self::Prepared<'_>) -> u64;
+
+    /// Which bricks are best drawn first where the order does not matter to the pixels: those of the largest rank.
+    /// Nothing where bricks must come front to back.
+    fn rank(&self, reach: [f32; 2]) -> Option<f32>;
 
     /// Hands out each pixel of a tile, row by row: premultiplied linear light, and the sample number that its depth
     /// is taken from, or [`NO_SAMPLE`].
@@ -54,6 +58,14 @@ impl<'a> BrickView<'a> {
             reach: range.reach,
         }
     }
+}
+
+/// The pixels that two rectangles have in common.
+pub fn common(a: &PixelRect, b: &PixelRect) -> Option<PixelRect> {
+    overlap(a, b).then(|| PixelRect {
+        min: [0, 1].map(|axis| a.min[axis].max(b.min[axis])),
+        max: [0, 1].map(|axis| a.max[axis].min(b.max[axis])),
+    })
 }
 
 /// Whether two rectangles of pixels have one in common.

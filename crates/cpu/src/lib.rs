@@ -7,6 +7,8 @@
 //! finds for each ray the samples that the brick owns, and adds them to the ray's pixel. Rays meet at most one brick of
 //! a layer, so the order in which threads come to a tile changes nothing.
 
+mod by_blocks;
+mod by_layers;
 mod executor;
 mod kernel;
 mod scalar;

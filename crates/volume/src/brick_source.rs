@@ -28,6 +28,9 @@ pub trait BrickSource: Send + Sync {
     /// When it cannot be read; the message names it.
     fn brick(&self, id: BrickId) -> Result<Arc<Brick>, ReadError>;
 
+    /// Whether that many bricks can be in use at once without going over the memory that was promised.
+    fn can_hold(&self, bricks: usize) -> bool;
+
     /// Voxels of the volume that are not finite; they are read as 0.
     fn not_finite(&self) -> u64;
 

@@ -104,6 +104,10 @@ impl<P: Projector> Kernel for Scalar<P> {
         }
     }
 
+    fn rank(&self, _reach: [f32; 2]) -> Option<f32> {
+        None
+    }
+
     fn finish(&self, tile: &Self::Tile, mut pixel: impl FnMut([f32; 4], u32)) {
         for gathered in &tile.pixels {
             let (rgba, number) = self.projector.finish(gathered);

@@ -51,6 +51,7 @@ unsafe impl Lanes for Avx2 {
         gt(a: __m256, b: __m256) -> __m256 = _mm256_cmp_ps::<_CMP_GT_OQ>(a, b);
         gt_i(a: __m256i, b: __m256i) -> __m256 = _mm256_castsi256_ps(_mm256_cmpgt_epi32(a, b));
         both(a: __m256, b: __m256) -> __m256 = _mm256_and_ps(a, b);
+        either(a: __m256, b: __m256) -> __m256 = _mm256_or_ps(a, b);
         but_not(a: __m256, b: __m256) -> __m256 = _mm256_andnot_ps(b, a);
         mask_bits(m: __m256) -> u32 = _mm256_movemask_ps(m) as u32;
         select(m: __m256, yes: __m256, no: __m256) -> __m256 = _mm256_blendv_ps(no, yes, m);

@@ -101,6 +101,11 @@ unsafe impl Lanes for Avx512 {
     }
 
     #[inline(always)]
+    fn either(a: __mmask16, b: __mmask16) -> __mmask16 {
+        a | b
+    }
+
+    #[inline(always)]
     fn but_not(a: __mmask16, b: __mmask16) -> __mmask16 {
         a & !b
     }

@@ -20,7 +20,8 @@ pub struct LaneExtremum<'a> {
 pub struct ExtremumState {
     /// The stored value times the sign; −∞ before the first sample.
     signed: Column,
-    number: [i32; PACKET],
+    /// Of the first sample that has it; +∞ before the first sample.
+    number: Column,
 }
 
 impl Projection for LaneExtremum<'_> {
@@ -29,13 +30,18 @@ impl Projection for LaneExtremum<'_> {
     type Cells = Option<Vec<f32>>;
 
     fn start(&self) -> ExtremumState {
-        ExtremumState { signed: [f32::NEG_INFINITY; PACKET], number: [NO_SAMPLE as i32; PACKET] }
+        ExtremumState { signed: [f32::NEG_INFINITY; PACKET], number: [f32::INFINITY; PACKET] }
     }
 
     fn unchanged_by(&self, packet: &Packet<ExtremumState>, [min, max]: [f32; 2]) -> u32 {
-        let most = if self.sign > 0.0 { max } else { -min };
+        // Bricks come in any order: an equal value may be nearer.
+        let most = self.signed([min, max]);
         let signed = packet.state.signed.iter().enumerate();
-        signed.fold(0, |rays, (lane, &signed)| rays | u32::from(signed >= most) << lane)
+        signed.fold(0, |rays, (lane, &signed)| rays | u32::from(signed > most) << lane)
+    }
+
+    fn rank(&self, reach: [f32; 2]) -> Option<f32> {
+        Some(self.signed(reach))
     }
 
     fn cells(&self, brick: &BrickView) -> Option<Option<Vec<f32>>> {
@@ -65,7 +71,7 @@ impl Projection for LaneExtremum<'_> {
         let last = L::min(last, L::splat(last_sample));
         let state = &mut packet.state;
         let mut most = L::load(&state.signed[first..]);
-        let mut found = L::load_i(&state.number[first..]);
+        let mut found = L::load(&state.number[first..]);
         let (one, sign) = (L::splat(1.0), L::splat(self.sign));
         let mut samples = 0;
         loop {
@@ -79,7 +85,8 @@ impl Projection for LaneExtremum<'_> {
             if let Some(cells) = cells {
                 // SAFETY: the index is a cell's.
                 let most_in_cell = unsafe { L::gather(cells.as_ptr(), brick.cell_index::<L>(&sample)) };
-                let vacant = L::but_not(sample.owned, L::gt(most_in_cell, most));
+                let nearer = L::both(L::ge(most_in_cell, most), L::lt(number, found));
+                let vacant = L::but_not(L::but_not(sample.owned, L::gt(most_in_cell, most)), nearer);
                 if L::any(vacant) {
                     evaluated = L::but_not(evaluated, vacant);
                     forward = L::select(vacant, brick.leap::<L>(&rays, &sample, one), one);
@@ -89,22 +96,30 @@ impl Projection for LaneExtremum<'_> {
                 samples += u64::from(L::mask_bits(evaluated).count_ones());
                 let place = brick.place::<L>(&sample);
                 let signed = L::mul(sign, brick.value::<L>(&place));
-                let more = L::both(evaluated, L::gt(signed, most));
+                let nearer = L::both(L::ge(signed, most), L::lt(number, found));
+                let more = L::both(evaluated, L::either(L::gt(signed, most), nearer));
                 most = L::select(more, signed, most);
-                found = L::select_i(more, L::to_i(number), found);
+                found = L::select(more, number, found);
             }
             number = L::add(number, forward);
         }
         L::store(most, &mut state.signed[first..]);
-        L::store_i(found, &mut state.number[first..]);
+        L::store(found, &mut state.number[first..]);
         samples
     }
 
     fn finish(&self, packet: &Packet<ExtremumState>, lane: usize) -> ([f32; 4], u32) {
-        let number = packet.state.number[lane] as u32;
-        if number == NO_SAMPLE {
+        let number = packet.state.number[lane];
+        if number == f32::INFINITY {
             return ([0.0; 4], NO_SAMPLE);
         }
-        (self.look_up.projected(self.sign * packet.state.signed[lane]), number)
+        (self.look_up.projected(self.sign * packet.state.signed[lane]), number as u32)
+    }
+}
+
+impl LaneExtremum<'_> {
+    /// The largest signed value of a range of stored values.
+    fn signed(&self, [min, max]: [f32; 2]) -> f32 {
+        if self.sign > 0.0 { max } else { -min }
     }
 }

@@ -51,6 +51,7 @@ pub unsafe trait Lanes: Copy {
     fn gt(a: Self::F, b: Self::F) -> Self::M;
     fn gt_i(a: Self::I, b: Self::I) -> Self::M;
     fn both(a: Self::M, b: Self::M) -> Self::M;
+    fn either(a: Self::M, b: Self::M) -> Self::M;
     /// a, and not b.
     fn but_not(a: Self::M, b: Self::M) -> Self::M;
     /// The lanes whose bits are set.

@@ -4,7 +4,10 @@
 //! The code is written once for any [`Lanes`] and compiled for each set of instructions; which one runs is chosen
 //! when the processor is known.
 
-#![allow(clippy::needless_range_loop, reason = "an index names the axis or component of several arrays at once")]
+#![allow(
+    clippy::needless_range_loop,
+    reason = "an index names the axis or component of several arrays at once"
+)]
 
 mod brick;
 mod dvr;
@@ -152,6 +155,10 @@ impl<P: Projection> Kernel for Vectors<P> {
             PreparedVoxels::I16(voxels) => self.add_voxels(tile, brick, voxels),
             PreparedVoxels::F32(voxels) => self.add_voxels(tile, brick, voxels),
         }
+    }
+
+    fn rank(&self, reach: [f32; 2]) -> Option<f32> {
+        self.projection.rank(reach)
     }
 
     fn finish(&self, tile: &Self::Tile, mut pixel: impl FnMut([f32; 4], u32)) {

@@ -150,6 +150,10 @@ unsafe impl Lanes for Portable {
         pairs(a, b, |a, b| a & b)
     }
     #[inline(always)]
+    fn either(a: M, b: M) -> M {
+        pairs(a, b, |a, b| a | b)
+    }
+    #[inline(always)]
     fn but_not(a: M, b: M) -> M {
         pairs(a, b, |a, b| a & !b)
     }

@@ -5,17 +5,22 @@ use super::packet::Packet;
 use super::voxel::LaneVoxel;
 use crate::kernel::BrickView;
 
-/// One way to form pixels from packets of rays, whose samples come front to back.
+/// One way to form pixels from packets of rays.
 pub trait Projection: Sync {
     /// What the rays of a packet have gathered.
     type State: Copy + Send;
     /// What is found out of a brick's cells before its rays are marched.
-    type Cells;
+    type Cells: Send + Sync;
 
     fn start(&self) -> Self::State;
 
     /// The rays that samples with stored values in [min, max] cannot change, by bit.
     fn unchanged_by(&self, packet: &Packet<Self::State>, reach: [f32; 2]) -> u32;
+
+    /// Which bricks are best drawn first, or nothing where they must come front to back.
+    fn rank(&self, _reach: [f32; 2]) -> Option<f32> {
+        None
+    }
 
     /// Looks at a brick's cells; nothing where the brick holds nothing to draw.
     fn cells(&self, brick: &BrickView) -> Option<Self::Cells>;

@@ -1,0 +1,51 @@
+//! A frame layer by layer: each brick is loaded once, and is in use only while its layer is drawn.
+
+use std::ops::Range;
+
+use glassbrick_volume::{PlannedBrick, ReadError};
+use rayon::prelude::*;
+
+use crate::executor::Picture;
+use crate::kernel::Kernel;
+use crate::tiles::Tiles;
+
+/// Draws all layers; returns how many bricks were loaded.
+pub fn draw<K: Kernel>(picture: &Picture<K>) -> Result<usize, ReadError> {
+    let mut loaded = 0;
+    for layer in &picture.scene.plan.layers {
+        let open: Vec<&PlannedBrick> =
+            layer.bricks.par_iter().filter(|brick| !picture.is_hidden(brick)).collect();
+        loaded += open.len();
+        shares::<K>(&open).into_par_iter().try_for_each(|share| {
+            let brick = picture.load(share.brick)?;
+            if let Some(prepared) = picture.prepare(share.brick, &brick) {
+                let tiles = picture.tiles.in_rows(share.tile_rows, &share.brick.footprint);
+                let samples = tiles.map(|mut tile| picture.kernel.add_brick(&mut tile, &prepared)).sum();
+                picture.count(share.brick, samples);
+            }
+            Ok::<(), ReadError>(())
+        })?;
+    }
+    Ok(loaded)
+}
+
+/// Rows of tiles of a brick's footprint, to be drawn by one thread.
+struct Share<'a> {
+    brick: &'a PlannedBrick,
+    tile_rows: Range<u32>,
+}
+
+/// Cuts the footprints of a layer with few bricks into shares, so that all threads have work.
+fn shares<'a, K: Kernel>(open: &[&'a PlannedBrick]) -> Vec<Share<'a>> {
+    let wanted = 4 * rayon::current_num_threads();
+    let per_brick = wanted.div_ceil(open.len().max(1)) as u32;
+    let mut shares = Vec::new();
+    for &brick in open {
+        let rows = Tiles::<K::Tile>::rows(&brick.footprint);
+        let rows_per_share = (rows.len() as u32).div_ceil(per_brick).max(1);
+        for start in rows.clone().step_by(rows_per_share as usize) {
+            shares.push(Share { brick, tile_rows: start..(start + rows_per_share).min(rows.end) });
+        }
+    }
+    shares
+}
