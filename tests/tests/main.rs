@@ -2,6 +2,9 @@
 
 mod agreement;
 mod analytic_truth;
+mod binary;
+mod command_line;
 mod comparing;
 mod fair_scenes;
 mod properties;
+mod robustness;
