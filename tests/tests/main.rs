@@ -7,4 +7,5 @@ mod command_line;
 mod comparing;
 mod fair_scenes;
 mod properties;
+mod real_data;
 mod robustness;

@@ -19,7 +19,7 @@ use tempfile::TempDir;
 
 use crate::binary::{Outcome, glassbrick_in_little_memory};
 
-const EXIT_FAILURE: i32 = 1;
+pub const EXIT_FAILURE: i32 = 1;
 const EXIT_USAGE: i32 = 2;
 
 /// Long enough for a busy machine; a refusal takes a few milliseconds.
@@ -80,7 +80,7 @@ fn names_in(folder: &Path) -> Vec<String> {
 
 /// Holds that a command line was refused in one line, and at once; returns that line.
 #[track_caller]
-fn refused(outcome: &Outcome, code: i32) -> String {
+pub fn refused(outcome: &Outcome, code: i32) -> String {
     assert_eq!(outcome.code, Some(code), "{outcome:?}");
     assert_eq!(outcome.stdout, "", "{outcome:?}");
     let message = outcome.stderr.strip_suffix('\n').unwrap_or_else(|| panic!("no line: {outcome:?}"));
