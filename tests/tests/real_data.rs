@@ -6,6 +6,7 @@
 mod axis_orders;
 mod files;
 mod heads;
+mod refusals;
 mod surfaces;
 
 use std::env;

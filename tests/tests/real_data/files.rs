@@ -1,17 +1,11 @@
-use std::collections::HashSet;
-use std::fs;
-use std::path::{Path, PathBuf};
-
 use glam::{DVec3, UVec3};
 use glassbrick::{Endian, OpenOptions, OpenSettings, RawLayout, Rescale, StoredType, Volume};
 use glassbrick_volume::{BrickId, Voxels};
 
-use super::{data, open, path};
-use crate::binary::glassbrick_in_little_memory;
-use crate::robustness::{EXIT_FAILURE, refused};
+use super::{data, open};
 
 /// Name and the other columns of each file.
-fn table() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
+pub fn table() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
     let rows = include_str!("volumes.txt").lines().filter(|line| !line.starts_with('#'));
     rows.map(|row| {
         let mut columns = row.split('|').map(str::trim);
@@ -126,47 +120,4 @@ fn a_tilted_gantry_is_followed_and_told() {
     let tilt_deg = desc.direction.y_axis.dot(desc.direction.z_axis).asin().to_degrees();
     assert!((tilt_deg.abs() - 18.5).abs() < 0.1, "{tilt_deg}");
     assert!(volume.notes().iter().any(|note| note.contains("gantry tilt")), "{:?}", volume.notes());
-}
-
-#[test]
-fn every_other_file_is_refused_in_one_line() {
-    let Some(data) = data() else { return };
-    let volumes: HashSet<PathBuf> = table().map(|(name, _)| data.join(name)).collect();
-    let mut others = Vec::new();
-    walk(&data, &mut others);
-    others.retain(|path| {
-        !volumes.contains(path) && !path.components().any(|part| part.as_os_str() == "nifti_space")
-    });
-    assert!(others.len() > 100);
-    for path in others {
-        let message = refused(&glassbrick_in_little_memory("info", &[&path]), EXIT_FAILURE);
-        let name = path.file_name().expect("files have names").to_string_lossy();
-        assert!(message.contains(&*name), "{}: {message}", path.display());
-    }
-}
-
-fn walk(folder: &Path, files: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() { walk(&path, files) } else { files.push(path) }
-    }
-}
-
-#[test]
-fn folders_that_hold_no_volume_or_several_are_refused_in_one_line() {
-    let Some(data) = data() else { return };
-    for (name, words) in [
-        ("mouse-brain-whole-tiff/brain-270.tar.xz:brain", "DICOM"),
-        ("microscopy-small/neubias/xyz_8bit__em_volume_tiff_series", "DICOM"),
-        ("nrrd-meta-odd/headsq-quarter", "DICOM"),
-        ("nifti-odd/nifti_space", "NIfTI"),
-        ("ome-zarr/mni152.ome.zarr", "Zarr"),
-        ("ome-zarr/neuroglancer-testdata/zarr/ome_zarr/simple_0.4", "Zarr"),
-        ("ome-zarr/neuroglancer-testdata/zarr/ome_zarr/simple_0.5", "Zarr"),
-        ("ome-zarr/neuroglancer-testdata/n5/n5_viewer_multiscale_modern", "DICOM"),
-        ("dicom-odd/pydicom", "name a file"),
-    ] {
-        let message = refused(&glassbrick_in_little_memory("info", &[&path(&data, name)]), EXIT_FAILURE);
-        assert!(message.contains(words), "{message}");
-    }
 }
