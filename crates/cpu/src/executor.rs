@@ -31,7 +31,8 @@ pub struct CpuFrame {
 }
 
 /// Draws a planned frame with one kernel: block by block of the picture where all its bricks can be held at once, else
-/// layer by layer, so that each brick is loaded once. Both draw the same picture and count the same.
+/// layer by layer, so that each brick is loaded once. Both draw the same picture; of projections, whose bricks come in
+/// another order by blocks, they count other samples.
 pub fn draw_with<K: Kernel>(
     kernel: &K,
     source: &dyn BrickSource,

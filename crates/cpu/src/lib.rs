@@ -1,11 +1,14 @@
-//! The CPU executor: draws a frame plan with the processor, layer by layer, bricks in parallel.
+//! The CPU executor: draws a frame plan with the processor.
 //!
-//! It takes bricks from any [`BrickSource`](glassbrick_volume::BrickSource) and knows nothing about files or GPUs. Its
-//! scalar code is the truth that other executors are held to.
+//! It takes bricks from any [`BrickSource`](glassbrick_volume::BrickSource) and knows nothing about files or GPUs.
 //!
-//! The picture is cut into tiles. A thread that draws a brick locks one tile of its footprint after the other,
-//! finds for each ray the samples that the brick owns, and adds them to the ray's pixel. Rays meet at most one brick of
-//! a layer, so the order in which threads come to a tile changes nothing.
+//! The picture is cut into tiles of rays. Where memory holds all bricks of the frame, a thread takes a block of tiles
+//! through all its bricks, front to back (`by_blocks`); else threads share the bricks of one layer after the other, each
+//! locking the tiles that a brick can meet (`by_layers`). Rays meet at most one brick of a layer, so the order in which
+//! threads come to a tile changes nothing.
+//!
+//! How a tile takes a brick's samples is a kernel's: `scalar` goes sample by sample and is the truth that others are
+//! held to; `simd` takes packets of rays at once, and leaps over cells of a brick that show nothing.
 
 mod by_blocks;
 mod by_layers;

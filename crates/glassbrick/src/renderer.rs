@@ -108,11 +108,12 @@ impl<'a> Renderer<'a> {
     pub fn draw(&mut self, camera: &Camera, repeat: usize) -> Result<Rendered, Error> {
         let mut render_all = Vec::with_capacity(repeat.max(1));
         let (first, plan_time, in_frustum) = self.draw_once(camera, &mut render_all)?;
-        let residency = self.residency();
-        let load_time = residency.1;
+        let (residency, load_time) = self.residency();
         for _ in 1..repeat {
             self.draw_once(camera, &mut render_all)?;
         }
+        // What repeats went through is nobody's: the next report counts from here.
+        self.residency();
         let bricks = self.brick_counts(&first, in_frustum);
         let mut warnings = self.warnings.clone();
         warnings.extend(self.why_nothing_is_shown(&first.frame, &bricks));
@@ -136,7 +137,7 @@ impl<'a> Renderer<'a> {
             alpha: self.request.nearly_empty.alpha,
             beta: self.request.nearly_empty.beta,
             bricks,
-            residency: residency.0,
+            residency,
             samples: Some(first.samples),
             complete: true,
             time_ms: StageTimes {

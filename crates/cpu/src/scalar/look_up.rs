@@ -4,7 +4,7 @@ use glassbrick_volume::{BAKED_ENTRIES, BakedTransferFunction, Rescale};
 pub struct LookUp<'a> {
     /// The stored value at which entry 0 stands.
     first_stored: f32,
-    entries_per_stored: f32,
+    entries_per_stored: f64,
     baked: &'a BakedTransferFunction,
 }
 
@@ -19,16 +19,17 @@ impl<'a> LookUp<'a> {
     pub fn new(baked: &'a BakedTransferFunction, rescale: Rescale) -> Self {
         Self {
             first_stored: rescale.stored(baked.first_value) as f32,
-            entries_per_stored: (baked.entries_per_value() * rescale.slope) as f32,
+            entries_per_stored: baked.entries_per_value() * rescale.slope,
             baked,
         }
     }
 
     #[inline(always)]
     pub fn entry(&self, stored: f32) -> Entry {
-        // Subtracting first is exact near the first entry, where most functions begin to show something.
-        let at =
-            ((stored - self.first_stored) * self.entries_per_stored).max(0.0).min((BAKED_ENTRIES - 1) as f32);
+        // Rounded once, so that a value at which an entry stands meets that entry exactly: where a band ends there, such
+        // values are not seen.
+        let at = (f64::from(stored - self.first_stored) * self.entries_per_stored) as f32;
+        let at = at.max(0.0).min((BAKED_ENTRIES - 1) as f32);
         let index = (at as usize).min(BAKED_ENTRIES - 2);
         Entry { index, fraction: at - index as f32 }
     }

@@ -88,20 +88,25 @@ impl Projection for LaneDvr<'_> {
             if !L::any(open) {
                 break;
             }
-            let sample = brick.sample::<L>(&rays, number, open);
-            let mut evaluated = sample.owned;
-            let mut forward = one;
+            let mut sample = brick.sample::<L>(&rays, number, open);
             if let Some(occupancy) = cells {
-                // SAFETY: the index is a cell's, and three bytes and more follow the last.
-                let bytes =
-                    unsafe { L::gather_bytes(occupancy.distance.as_ptr(), brick.cell_index::<L>(&sample)) };
-                let distance = L::and_i(bytes, L::splat_i(0xFF));
-                let vacant = L::both(sample.owned, L::gt_i(distance, L::splat_i(0)));
-                if L::any(vacant) {
-                    evaluated = L::but_not(evaluated, vacant);
-                    forward = L::select(vacant, brick.leap::<L>(&rays, &sample, L::to_f(distance)), one);
+                // All rays leap to where something may be seen before any is evaluated, so that many are at once.
+                loop {
+                    let index = brick.cell_index::<L>(&sample);
+                    // SAFETY: the index is a cell's, and three bytes and more follow the last.
+                    let bytes = unsafe { L::gather_bytes(occupancy.distance.as_ptr(), index) };
+                    let distance = L::and_i(bytes, L::splat_i(0xFF));
+                    let vacant = L::both(sample.owned, L::gt_i(distance, L::splat_i(0)));
+                    if !L::any(vacant) {
+                        break;
+                    }
+                    let leap = brick.leap::<L>(&rays, &sample, L::to_f(distance));
+                    number = L::add(number, L::select(vacant, leap, zero));
+                    open = L::both(open, L::ge(last, number));
+                    sample = brick.sample::<L>(&rays, number, open);
                 }
             }
+            let evaluated = sample.owned;
             if L::any(evaluated) {
                 samples += u64::from(L::mask_bits(evaluated).count_ones());
                 let place = brick.place::<L>(&sample);
@@ -127,7 +132,7 @@ impl Projection for LaneDvr<'_> {
                     open = L::but_not(open, L::both(seen, L::ge(gathered, cutoff)));
                 }
             }
-            number = L::add(number, forward);
+            number = L::add(number, one);
         }
         for component in 0..3 {
             L::store(color[component], &mut state.color[component][first..]);

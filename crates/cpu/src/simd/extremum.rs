@@ -72,26 +72,32 @@ impl Projection for LaneExtremum<'_> {
         let state = &mut packet.state;
         let mut most = L::load(&state.signed[first..]);
         let mut found = L::load(&state.number[first..]);
-        let (one, sign) = (L::splat(1.0), L::splat(self.sign));
+        let (zero, one, sign) = (L::splat(0.0), L::splat(1.0), L::splat(self.sign));
         let mut samples = 0;
         loop {
             open = L::both(open, L::ge(last, number));
             if !L::any(open) {
                 break;
             }
-            let sample = brick.sample::<L>(&rays, number, open);
-            let mut evaluated = sample.owned;
-            let mut forward = one;
+            let mut sample = brick.sample::<L>(&rays, number, open);
             if let Some(cells) = cells {
-                // SAFETY: the index is a cell's.
-                let most_in_cell = unsafe { L::gather(cells.as_ptr(), brick.cell_index::<L>(&sample)) };
-                let nearer = L::both(L::ge(most_in_cell, most), L::lt(number, found));
-                let vacant = L::but_not(L::but_not(sample.owned, L::gt(most_in_cell, most)), nearer);
-                if L::any(vacant) {
-                    evaluated = L::but_not(evaluated, vacant);
-                    forward = L::select(vacant, brick.leap::<L>(&rays, &sample, one), one);
+                // All rays leap to where they may find more before any is evaluated, so that many are at once.
+                loop {
+                    // SAFETY: the index is a cell's.
+                    let most_in_cell = unsafe { L::gather(cells.as_ptr(), brick.cell_index::<L>(&sample)) };
+                    let nearer = L::both(L::ge(most_in_cell, most), L::lt(number, found));
+                    let useful = L::either(L::gt(most_in_cell, most), nearer);
+                    let vacant = L::but_not(sample.owned, useful);
+                    if !L::any(vacant) {
+                        break;
+                    }
+                    let leap = brick.leap::<L>(&rays, &sample, one);
+                    number = L::add(number, L::select(vacant, leap, zero));
+                    open = L::both(open, L::ge(last, number));
+                    sample = brick.sample::<L>(&rays, number, open);
                 }
             }
+            let evaluated = sample.owned;
             if L::any(evaluated) {
                 samples += u64::from(L::mask_bits(evaluated).count_ones());
                 let place = brick.place::<L>(&sample);
@@ -101,7 +107,7 @@ impl Projection for LaneExtremum<'_> {
                 most = L::select(more, signed, most);
                 found = L::select(more, number, found);
             }
-            number = L::add(number, forward);
+            number = L::add(number, one);
         }
         L::store(most, &mut state.signed[first..]);
         L::store(found, &mut state.number[first..]);

@@ -28,6 +28,8 @@ pub unsafe trait Lanes: Copy {
     fn div(a: Self::F, b: Self::F) -> Self::F;
     /// a · b + c, rounded once or twice.
     fn mul_add(a: Self::F, b: Self::F, c: Self::F) -> Self::F;
+    /// a · b + c, rounded as if once.
+    fn fused_mul_add(a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     fn min(a: Self::F, b: Self::F) -> Self::F;
     fn max(a: Self::F, b: Self::F) -> Self::F;
     fn abs(a: Self::F) -> Self::F;

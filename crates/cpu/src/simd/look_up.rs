@@ -6,7 +6,8 @@ use super::lanes::Lanes;
 /// A baked transfer function as vectors of stored values look it up.
 pub struct LaneLookUp<'a> {
     first_stored: f32,
-    entries_per_stored: f32,
+    /// In two parts, of which the second is what the first was rounded by.
+    entries_per_stored: [f32; 2],
     extinction: &'a [f32],
     /// Red, green and blue of each entry.
     color: &'a [f32],
@@ -23,11 +24,13 @@ impl<'a> LaneLookUp<'a> {
     pub fn new(baked: &'a BakedTransferFunction, rescale: Rescale) -> Self {
         let (extinction, color) = (baked.extinction.as_slice(), baked.color.as_flattened());
         assert!(extinction.len() == BAKED_ENTRIES && color.len() == 3 * BAKED_ENTRIES);
+        let exact = baked.entries_per_value() * rescale.slope;
+        let entries_per_stored = [exact as f32, (exact - f64::from(exact as f32)) as f32];
         let first = extinction.iter().position(|&sigma| sigma > 0.0).unwrap_or(BAKED_ENTRIES) as f32;
         let last = extinction.iter().rposition(|&sigma| sigma > 0.0).map_or(-1.0, |last| last as f32);
         Self {
             first_stored: rescale.stored(baked.first_value) as f32,
-            entries_per_stored: (baked.entries_per_value() * rescale.slope) as f32,
+            entries_per_stored,
             extinction,
             color,
             shown: [first - 1.0, last + 1.0],
@@ -36,10 +39,12 @@ impl<'a> LaneLookUp<'a> {
 
     #[inline(always)]
     pub fn entry<L: Lanes>(&self, stored: L::F) -> LaneEntry<L> {
-        // Subtracting first is exact near the first entry, where most functions begin to show something.
+        // Rounded once, so that a value at which an entry stands meets that entry exactly: where a band ends there, such
+        // values are not seen.
         let above = L::sub(stored, L::splat(self.first_stored));
-        let at = L::max(L::mul(above, L::splat(self.entries_per_stored)), L::splat(0.0));
-        LaneEntry { at: L::min(at, L::splat((BAKED_ENTRIES - 1) as f32)) }
+        let [scale, rest] = self.entries_per_stored;
+        let at = L::fused_mul_add(above, L::splat(scale), L::mul(above, L::splat(rest)));
+        LaneEntry { at: L::min(L::max(at, L::splat(0.0)), L::splat((BAKED_ENTRIES - 1) as f32)) }
     }
 
     /// The entries at which extinction may be above zero.

@@ -75,6 +75,11 @@ unsafe impl Lanes for Portable {
         std::array::from_fn(|lane| a[lane] * b[lane] + c[lane])
     }
     #[inline(always)]
+    fn fused_mul_add(a: F, b: F, c: F) -> F {
+        // The product is exact in f64.
+        std::array::from_fn(|lane| (f64::from(a[lane]) * f64::from(b[lane]) + f64::from(c[lane])) as f32)
+    }
+    #[inline(always)]
     fn min(a: F, b: F) -> F {
         pairs(a, b, |a, b| if a < b { a } else { b })
     }
