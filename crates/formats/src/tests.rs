@@ -82,6 +82,12 @@ pub(crate) fn gzip(bytes: &[u8]) -> Vec<u8> {
     encoder.finish().unwrap()
 }
 
+pub(crate) fn zlib(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::fast());
+    encoder.write_all(bytes).unwrap();
+    encoder.finish().unwrap()
+}
+
 pub(crate) fn bzip2(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = bzip2::write::BzEncoder::new(Vec::new(), bzip2::Compression::fast());
     encoder.write_all(bytes).unwrap();
@@ -146,6 +152,57 @@ fn raw_voxels_are_read_as_the_user_says() {
         assert!(reader.flat_placement().is_none());
         assert_eq!(voxels(reader), native(0..12));
     }
+}
+
+/// A compressed NRRD of 32 by 16 by 3 voxels, but for its data.
+fn noise_header(encoding: &str) -> Vec<u8> {
+    format!("NRRD0004\ntype: short\nendian: little\ndimension: 3\nsizes: 32 16 3\nencoding: {encoding}\n\n")
+        .into_bytes()
+}
+
+/// Voxels for it in which nothing repeats for long.
+fn noise() -> Vec<u8> {
+    little((0..32 * 16 * 3).map(|voxel| (voxel * 7919 % 3001) as i16))
+}
+
+fn try_voxels(path: &Path) -> Option<Vec<u8>> {
+    let mut reader = open(path, &OpenOptions::default()).ok()?;
+    let mut voxels = vec![0; reader.desc().bytes() as usize];
+    reader.read_slices(&mut voxels).ok().map(|()| voxels)
+}
+
+#[test]
+fn damage_anywhere_in_a_compressed_stream_is_seen() {
+    let folder = Folder::new();
+    let voxels = noise();
+    let sound = try_voxels(&folder.write("raw.nrrd", [noise_header("raw"), noise()].concat()));
+    for (encoding, packed) in [
+        ("gzip", gzip(&voxels)),
+        ("gzip", zlib(&voxels)),
+        ("bzip2", bzip2(&voxels)),
+        ("gzip", gzip(&[voxels.as_slice(), &voxels].concat())),
+    ] {
+        let header = noise_header(encoding);
+        let file = [header.as_slice(), &packed].concat();
+        let path = folder.write("a.nrrd", &file);
+        assert!(sound.is_some() && try_voxels(&path) == sound, "{encoding} is sound");
+        for byte in header.len()..file.len() {
+            let mut damaged = file.clone();
+            damaged[byte] ^= 0x55;
+            folder.write("a.nrrd", damaged);
+            let read = try_voxels(&path);
+            assert!(read.is_none() || read == sound, "{encoding}: byte {byte} of {}", file.len());
+        }
+    }
+}
+
+#[test]
+fn what_follows_far_behind_the_voxels_is_not_looked_at() {
+    let folder = Folder::new();
+    let mut packed = gzip(&[noise(), vec![0; 4 << 20]].concat());
+    let sum = packed.len() - 8;
+    packed[sum] ^= 1;
+    assert!(try_voxels(&folder.write("a.nrrd", [noise_header("gzip"), packed].concat())).is_some());
 }
 
 #[test]

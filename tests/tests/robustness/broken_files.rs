@@ -70,10 +70,7 @@ fn compressed_voxels_that_are_not_those_that_were_written_are_refused() {
     }
 }
 
-/// An open bug: damage that makes a stream longer than it was goes unseen, because the sum at its end is looked at
-/// only where the stream ends with the last voxel.
 #[test]
-#[should_panic(expected = "Some(1)")]
 fn damage_in_the_middle_of_compressed_voxels_is_refused() {
     let scratch = Scratch::new();
     for file in sound_files::all(scratch.input.path()).iter().filter(|file| file.is_compressed) {

@@ -1,9 +1,7 @@
-use std::io::Write;
-
 use glam::{DVec3, UVec3};
 
 use crate::open;
-use crate::tests::{Folder, at_time, big, little, native, no_change_of_a_byte_panics, refusal, voxels};
+use crate::tests::{Folder, at_time, big, little, native, no_change_of_a_byte_panics, refusal, voxels, zlib};
 
 /// A 2×2×3 volume of i16 with more fields, the last of which is ElementDataFile.
 fn header(fields: &str) -> String {
@@ -12,12 +10,6 @@ fn header(fields: &str) -> String {
 
 fn local(fields: &str, data: impl AsRef<[u8]>) -> Vec<u8> {
     [header(&format!("{fields}\nElementDataFile = LOCAL")).as_bytes(), data.as_ref()].concat()
-}
-
-fn zlib(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::fast());
-    encoder.write_all(bytes).unwrap();
-    encoder.finish().unwrap()
 }
 
 #[test]

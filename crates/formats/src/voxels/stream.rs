@@ -11,6 +11,8 @@ use super::text::{HexBytes, TextVoxels};
 use crate::FormatError;
 
 const BUFFER_BYTES: usize = 256 << 10;
+/// So much may always follow the voxels in a stream and be read to find its sum.
+const HARMLESS_REST_BYTES: u64 = 1 << 20;
 
 /// The decoded voxels of settled parts, one after the other. One file is open at a time.
 pub(crate) struct PartStream {
@@ -54,20 +56,14 @@ impl PartStream {
 
     /// Checks the sum that may follow the last voxel of a part; to be called at the end of what is read.
     ///
+    /// The sum stands where the stream ends, so the rest is read on to there, unless it is long.
+    ///
     /// # Errors
     /// When the voxels read are not those that were written.
     pub fn check_end(&mut self) -> Result<(), FormatError> {
-        let Some(current) = self.current.as_mut().filter(|current| current.bytes_left == 0) else {
-            return Ok(());
-        };
-        match current.decoded.fill_buf() {
-            // What follows the stream, such as padding, has no header of a stream and does not matter.
-            Err(error)
-                if matches!(self.encoding, Encoding::Deflate | Encoding::Bzip2)
-                    && error.kind() != io::ErrorKind::UnexpectedEof
-                    && !error.to_string().contains("header") =>
-            {
-                Err(read_error(&current.part, self.encoding, current.part.bytes, error))
+        match self.current.take() {
+            Some(current) if matches!(self.encoding, Encoding::Deflate | Encoding::Bzip2) => {
+                current.check_rest(self.encoding)
             }
             _ => Ok(()),
         }
@@ -101,6 +97,47 @@ impl OpenPart {
         // This gives the same bytes again; borrowing them above would hold `self` through the loop.
         let bytes = self.decoded.fill_buf().map_err(failed)?;
         Ok(&bytes[..bytes.len().min(wanted)])
+    }
+
+    /// Reads what follows the voxels to the end of the stream, but not more than as much again as was read.
+    fn check_rest(mut self, encoding: Encoding) -> Result<(), FormatError> {
+        let found = self.part.bytes - self.bytes_left;
+        let most = found.saturating_add(self.part.skip_decoded).saturating_add(HARMLESS_REST_BYTES);
+        let mut rest: u64 = 0;
+        while rest < most {
+            let bytes = match self.decoded.fill_buf() {
+                Ok([]) => break,
+                Ok(buffer) => buffer.len(),
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+                Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
+                    return self.check_break_off(encoding, rest);
+                }
+                // What follows the stream, such as padding, has no header of a stream and does not matter.
+                Err(error) if error.to_string().contains("header") => break,
+                Err(error) => {
+                    let found = found.saturating_add(rest).min(self.part.bytes);
+                    return Err(read_error(&self.part, encoding, found, error));
+                }
+            };
+            self.decoded.consume(bytes);
+            rest += bytes as u64;
+        }
+        Ok(())
+    }
+
+    /// Judges a stream without an end: it may lack its sum, or voxels of a step that was not asked for, but
+    /// where it holds more than was ever claimed, it is not what was written.
+    fn check_break_off(&self, encoding: Encoding, rest: u64) -> Result<(), FormatError> {
+        if rest <= self.bytes_left {
+            return Ok(());
+        }
+        let what = format!(
+            "the {} data goes on for {} bytes after the last voxel, and breaks off there; it is damaged, get it \
+             anew",
+            encoding.name(),
+            rest - self.bytes_left
+        );
+        Err(FormatError::malformed(&self.part.path, what))
     }
 }
 
