@@ -26,7 +26,6 @@ mod error;
 mod histogram;
 mod presets;
 mod process_memory;
-mod projection_transfer_function;
 mod renderer;
 mod report_json;
 mod settings_file;
@@ -50,7 +49,6 @@ pub use glassbrick_volume::{
 pub use histogram::Histogram;
 pub use presets::{PRESETS, Preset, preset};
 pub use process_memory::{MemoryPeaks, peaks as memory_peaks};
-pub use projection_transfer_function::projection_transfer_function;
 pub use renderer::{LevelChoice, RenderRequest, Rendered, Renderer};
 pub use report_json::report_json;
 pub use transfer_function_file::read_transfer_function;

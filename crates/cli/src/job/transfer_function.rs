@@ -2,8 +2,7 @@ use std::path::Path;
 
 use anyhow::bail;
 use glassbrick::{
-    Mode, PRESETS, Preset, TransferFunction, Volume, auto_transfer_function, projection_transfer_function,
-    read_transfer_function,
+    Mode, PRESETS, Preset, TransferFunction, Volume, auto_transfer_function, read_transfer_function,
 };
 
 /// A transfer function, as far as it can be known without the volume.
@@ -40,8 +39,7 @@ impl TransferFunctionChoice {
     /// When its voxels cannot be read.
     pub fn for_volume(&self, volume: &Volume, mode: Mode) -> Result<TransferFunction, glassbrick::Error> {
         Ok(match self {
-            Self::Auto if mode == Mode::Dvr => auto_transfer_function(&volume.histogram()?),
-            Self::Auto => projection_transfer_function(&volume.histogram()?),
+            Self::Auto => auto_transfer_function(&volume.histogram()?, volume.desc(), mode),
             Self::Preset(preset) if preset.is_relative() => {
                 preset.transfer_function(volume.histogram()?.typical_range())
             }
