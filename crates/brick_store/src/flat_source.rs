@@ -59,7 +59,9 @@ impl FlatSource {
         }
         check(&desc, layout)?;
         let voxels = read_whole(reader, progress)?;
-        Self::from_array(desc, voxels, layout)
+        let mut source = Self::from_array(desc, voxels, layout)?;
+        source.bytes_read = AtomicU64::new(reader.bytes_read());
+        Ok(source)
     }
 
     fn scanned(desc: VolumeDesc, voxels: FlatVoxels, layout: BrickLayout) -> Self {
@@ -162,5 +164,57 @@ impl BrickSource for FlatSource {
 
     fn bytes_read(&self) -> u64 {
         self.bytes_read.load(Ordering::Relaxed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glassbrick_volume::StoredType;
+
+    use super::*;
+
+    /// A reader of zeros that claims to read a byte for every four.
+    struct Packed {
+        desc: VolumeDesc,
+        bytes_read: u64,
+    }
+
+    impl VolumeReader for Packed {
+        fn desc(&self) -> &VolumeDesc {
+            &self.desc
+        }
+
+        fn format(&self) -> &'static str {
+            "packed"
+        }
+
+        fn notes(&self) -> &[String] {
+            &[]
+        }
+
+        fn flat_placement(&self) -> Option<&FlatPlacement> {
+            None
+        }
+
+        fn read_slices(&mut self, out: &mut [u8]) -> Result<(), ReadError> {
+            self.bytes_read += out.len() as u64 / 4;
+            Ok(())
+        }
+
+        fn bytes_read(&self) -> u64 {
+            self.bytes_read
+        }
+    }
+
+    #[test]
+    fn what_a_reader_read_before_decoding_is_counted_once() {
+        let desc = VolumeDesc::new(UVec3::splat(32), StoredType::U8);
+        let mut reader = Packed { desc, bytes_read: 0 };
+        let layout = BrickLayout { edge: 16, halo: 2 };
+        let source = FlatSource::open(&mut reader, layout, &mut |_, _| {}).expect("a sound reader");
+        assert_eq!(source.bytes_read(), 32 * 32 * 8);
+        source.brick(BrickId { level: 0, x: 0, y: 0, z: 0 }).expect("in memory");
+        source.voxel_count_tables(0).expect("in memory");
+        assert_eq!(source.bytes_read(), 32 * 32 * 8);
     }
 }

@@ -197,6 +197,18 @@ fn damage_anywhere_in_a_compressed_stream_is_seen() {
 }
 
 #[test]
+fn what_was_read_is_counted_before_decoding() {
+    let folder = Folder::new();
+    for (encoding, packed) in [("gzip", gzip(&noise())), ("bzip2", bzip2(&noise()))] {
+        let bytes = packed.len() as u64;
+        let mut reader = folder.open("a.nrrd", [noise_header(encoding), packed].concat());
+        assert_eq!(reader.bytes_read(), 0);
+        reader.read_slices(&mut vec![0; noise().len()]).unwrap();
+        assert_eq!(reader.bytes_read(), bytes, "{encoding}");
+    }
+}
+
+#[test]
 fn what_follows_far_behind_the_voxels_is_not_looked_at() {
     let folder = Folder::new();
     let mut packed = gzip(&[noise(), vec![0; 4 << 20]].concat());

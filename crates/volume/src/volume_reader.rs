@@ -28,6 +28,9 @@ pub trait VolumeReader: Send {
     /// # Errors
     /// When the files end early, hold damaged data, or `out` reaches beyond the last slice.
     fn read_slices(&mut self, out: &mut [u8]) -> Result<(), ReadError>;
+
+    /// Bytes of voxels that `read_slices` read from files so far, before decoding.
+    fn bytes_read(&self) -> u64;
 }
 
 /// Byte order of stored voxels.

@@ -48,6 +48,14 @@ impl ByteStream {
         self.position
     }
 
+    /// How many bytes of the file it took to come here, from where they are deflated if they are.
+    pub(super) fn encoded_position(&self) -> u64 {
+        match &self.source {
+            Source::Plain(_) => self.position,
+            Source::Deflated(inflated) => inflated.get_ref().total_in(),
+        }
+    }
+
     pub(super) fn at_end(&mut self) -> Parsed<bool> {
         Ok(self.peek()?.is_empty())
     }

@@ -10,12 +10,18 @@ use super::transfer_syntax::FrameCoding;
 use super::{jpeg, jpeg2000, rle};
 
 /// Decodes a frame into stored values in this machine's byte order; `out` has the size of one frame. No
-/// rescaling and no windowing.
-pub(super) fn decode_frame(image: &Image, frame: usize, fragments: &Fragments, out: &mut [u8]) -> Parsed<()> {
+/// rescaling and no windowing. Says how many bytes of the file it took.
+pub(super) fn decode_frame(
+    image: &Image,
+    frame: usize,
+    fragments: &Fragments,
+    out: &mut [u8],
+) -> Parsed<u64> {
+    let mut bytes_read = fragments.iter().map(|&(_, bytes)| u64::from(bytes)).sum();
     let voxel_bytes = image.format.stored_type.bytes();
     let mut bits = image.format.bits;
     match image.transfer_syntax.coding {
-        FrameCoding::Native => read_voxels(image, frame, out)?,
+        FrameCoding::Native => bytes_read = read_voxels(image, frame, out)?,
         FrameCoding::Rle => rle::decode(&read_fragments(image, fragments)?, voxel_bytes, out)?,
         FrameCoding::Jpeg => {
             let encoded = read_fragments(image, fragments)?;
@@ -38,7 +44,7 @@ pub(super) fn decode_frame(image: &Image, frame: usize, fragments: &Fragments, o
         FrameCoding::Unknown(name) => return Err(format!("is compressed with {name}")),
     }
     image.format.extract(bits, out);
-    Ok(())
+    Ok(bytes_read)
 }
 
 /// Checks the header of an encoded frame, so that one that cannot be decoded is refused before any is.
@@ -54,22 +60,23 @@ pub(super) fn check_frame(image: &Image, fragments: &Fragments) -> Parsed<()> {
     }
 }
 
-/// Reads an uncompressed frame into this machine's byte order, its bits as they are.
-pub(super) fn read_voxels(image: &Image, frame: usize, out: &mut [u8]) -> Parsed<()> {
+/// Reads an uncompressed frame into this machine's byte order, its bits as they are. Says how many bytes of the
+/// file it took.
+pub(super) fn read_voxels(image: &Image, frame: usize, out: &mut [u8]) -> Parsed<u64> {
     let offset = image.frame_bytes() * frame as u64;
     let big_endian = image.transfer_syntax.encoding.big_endian;
     if big_endian && image.format.stored_type.bytes() == 1 && image.pixels.words {
         return read_swapped_bytes(image, offset, out);
     }
-    read_native(image, offset, out)?;
+    let bytes_read = read_native(image, offset, out)?;
     if big_endian != cfg!(target_endian = "big") {
         swap(image.format.stored_type.bytes(), out);
     }
-    Ok(())
+    Ok(bytes_read)
 }
 
 /// Reads bytes that were written as big-endian words of two.
-fn read_swapped_bytes(image: &Image, offset: u64, out: &mut [u8]) -> Parsed<()> {
+fn read_swapped_bytes(image: &Image, offset: u64, out: &mut [u8]) -> Parsed<u64> {
     let skipped = (offset % 2) as usize;
     let there = u64::from(image.pixels.bytes.unwrap_or(0)) - (offset - skipped as u64);
     let wanted = (skipped + out.len()).next_multiple_of(2);
@@ -77,10 +84,10 @@ fn read_swapped_bytes(image: &Image, offset: u64, out: &mut [u8]) -> Parsed<()> 
         return Err("has voxels in words of two bytes, and ends within one".to_owned());
     }
     let mut words = vec![0; wanted];
-    read_native(image, offset - skipped as u64, &mut words)?;
+    let bytes_read = read_native(image, offset - skipped as u64, &mut words)?;
     swap(2, &mut words);
     out.copy_from_slice(&words[skipped..skipped + out.len()]);
-    Ok(())
+    Ok(bytes_read)
 }
 
 fn swap(voxel_bytes: usize, voxels: &mut [u8]) {

@@ -107,15 +107,18 @@ pub(super) fn read_fragments(image: &Image, fragments: &Fragments) -> Parsed<Vec
     Ok(encoded)
 }
 
-/// Reads the bytes of an uncompressed frame that start `offset` bytes into the voxels.
-pub(super) fn read_native(image: &Image, offset: u64, out: &mut [u8]) -> Parsed<()> {
+/// Reads the bytes of an uncompressed frame that start `offset` bytes into the voxels, and says how many bytes of
+/// the file that took.
+pub(super) fn read_native(image: &Image, offset: u64, out: &mut [u8]) -> Parsed<u64> {
     if image.transfer_syntax.deflated {
         let mut stream = open_data_set(&image.path)?;
         stream.skip(image.pixels.offset + offset)?;
-        return stream.read(out);
+        stream.read(out)?;
+        return Ok(stream.encoded_position());
     }
     let file = File::open(&image.path).map_err(|error| error.to_string())?;
-    read_at(&file, image.pixels.offset + offset, out)
+    read_at(&file, image.pixels.offset + offset, out)?;
+    Ok(out.len() as u64)
 }
 
 fn read_at(mut file: &File, offset: u64, out: &mut [u8]) -> Parsed<()> {

@@ -1,6 +1,7 @@
 //! The frames of a volume, decoded slice by slice.
 
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use glassbrick_volume::{Endian, FlatPiece, FlatPlacement, ReadError, StoredType, VolumeDesc, VolumeReader};
 use rayon::prelude::*;
@@ -26,6 +27,7 @@ pub(super) struct DicomReader {
     slices: Vec<Slice>,
     next_slice: usize,
     placement: OnceLock<Option<FlatPlacement>>,
+    bytes_read: AtomicU64,
 }
 
 impl DicomReader {
@@ -48,6 +50,7 @@ impl DicomReader {
             slices,
             next_slice: 0,
             placement: OnceLock::new(),
+            bytes_read: AtomicU64::new(0),
         };
         reader.check_compression()?;
         reader.check_first_frame()?;
@@ -90,11 +93,14 @@ impl DicomReader {
         let fragments = self.fragments[slice.image].get(slice.frame).unwrap_or(&none);
         let failure = |what| FormatError::malformed(&image.path, what);
         if self.desc.stored_type == image.format.stored_type {
-            return Ok(decode_frame(image, slice.frame, fragments, out).map_err(failure)?);
+            let bytes_read = decode_frame(image, slice.frame, fragments, out).map_err(failure)?;
+            self.bytes_read.fetch_add(bytes_read, Ordering::Relaxed);
+            return Ok(());
         }
         // The slices differ in what their stored values mean, so values are given in their place.
         let mut stored = vec![0; image.frame_bytes() as usize];
-        decode_frame(image, slice.frame, fragments, &mut stored).map_err(failure)?;
+        let bytes_read = decode_frame(image, slice.frame, fragments, &mut stored).map_err(failure)?;
+        self.bytes_read.fetch_add(bytes_read, Ordering::Relaxed);
         let rescale = slice.info(&self.images).rescale;
         let values = image.format.numbers(&stored).into_iter().map(|stored| rescale.value(stored) as f32);
         out.as_chunks_mut().0.iter_mut().zip(values).for_each(|(voxel, value)| *voxel = value.to_ne_bytes());
@@ -210,5 +216,9 @@ impl VolumeReader for DicomReader {
             .try_for_each(|(out, slice)| self.read_slice(*slice, out))?;
         self.next_slice += count;
         Ok(())
+    }
+
+    fn bytes_read(&self) -> u64 {
+        self.bytes_read.load(Ordering::Relaxed)
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! A format says with [`StoredVoxels`] what its header says; everything after that is the same for all of them.
 
+mod counted_file;
 mod part;
 mod steps;
 mod stream;
@@ -145,5 +146,9 @@ impl VolumeReader for VoxelReader {
             swap_bytes(out, self.desc.stored_type.bytes());
         }
         Ok(())
+    }
+
+    fn bytes_read(&self) -> u64 {
+        self.stream.bytes_read()
     }
 }

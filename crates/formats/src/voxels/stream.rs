@@ -1,11 +1,14 @@
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::vec;
 
 use bzip2::bufread::MultiBzDecoder;
 use flate2::bufread::{MultiGzDecoder, ZlibDecoder};
 use glassbrick_volume::StoredType;
 
+use super::counted_file::CountedFile;
 use super::part::{Encoding, Part};
 use super::text::{HexBytes, TextVoxels};
 use crate::FormatError;
@@ -20,6 +23,7 @@ pub(crate) struct PartStream {
     encoding: Encoding,
     stored_type: StoredType,
     current: Option<OpenPart>,
+    bytes_read: Arc<AtomicU64>,
 }
 
 struct OpenPart {
@@ -30,7 +34,12 @@ struct OpenPart {
 
 impl PartStream {
     pub fn new(parts: Vec<Part>, encoding: Encoding, stored_type: StoredType) -> Self {
-        Self { parts: parts.into_iter(), encoding, stored_type, current: None }
+        Self { parts: parts.into_iter(), encoding, stored_type, current: None, bytes_read: Arc::default() }
+    }
+
+    /// Bytes read from the files so far, before decoding.
+    pub fn bytes_read(&self) -> u64 {
+        self.bytes_read.load(Ordering::Relaxed)
     }
 
     /// Some of the next voxels, at least one byte.
@@ -73,11 +82,30 @@ impl PartStream {
         let Some(part) = self.parts.next() else {
             unreachable!("the parts hold all bytes of the volume, and no more are asked for");
         };
-        let mut decoded = decode(&part, self.encoding, self.stored_type)
-            .map_err(|error| read_error(&part, self.encoding, 0, error))?;
+        let mut decoded = self.decode(&part).map_err(|error| read_error(&part, self.encoding, 0, error))?;
         skip(&mut decoded, part.skip_decoded).map_err(|error| read_error(&part, self.encoding, 0, error))?;
         let bytes_left = part.bytes;
         Ok(OpenPart { part, decoded, bytes_left })
+    }
+
+    fn decode(&self, part: &Part) -> io::Result<Box<dyn BufRead + Send>> {
+        let mut file = File::open(&part.path)?;
+        file.seek(SeekFrom::Start(part.offset_bytes()))?;
+        let file = CountedFile { file, bytes_read: Arc::clone(&self.bytes_read) };
+        let mut file = BufReader::with_capacity(BUFFER_BYTES, file);
+        fn buffered(decoder: impl Read + Send + 'static) -> Box<dyn BufRead + Send> {
+            Box::new(BufReader::with_capacity(BUFFER_BYTES, decoder))
+        }
+        Ok(match self.encoding {
+            Encoding::Raw => Box::new(file),
+            Encoding::Deflate => match file.fill_buf()? {
+                [0x1f, 0x8b, ..] => buffered(MultiGzDecoder::new(file)),
+                _ => buffered(ZlibDecoder::new(file)),
+            },
+            Encoding::Bzip2 => buffered(MultiBzDecoder::new(file)),
+            Encoding::Text => buffered(TextVoxels::new(file, self.stored_type)),
+            Encoding::Hex => buffered(HexBytes::new(file)),
+        })
     }
 }
 
@@ -139,25 +167,6 @@ impl OpenPart {
         );
         Err(FormatError::malformed(&self.part.path, what))
     }
-}
-
-fn decode(part: &Part, encoding: Encoding, stored_type: StoredType) -> io::Result<Box<dyn BufRead + Send>> {
-    let mut file = File::open(&part.path)?;
-    file.seek(SeekFrom::Start(part.offset_bytes()))?;
-    let mut file = BufReader::with_capacity(BUFFER_BYTES, file);
-    fn buffered(decoder: impl Read + Send + 'static) -> Box<dyn BufRead + Send> {
-        Box::new(BufReader::with_capacity(BUFFER_BYTES, decoder))
-    }
-    Ok(match encoding {
-        Encoding::Raw => Box::new(file),
-        Encoding::Deflate => match file.fill_buf()? {
-            [0x1f, 0x8b, ..] => buffered(MultiGzDecoder::new(file)),
-            _ => buffered(ZlibDecoder::new(file)),
-        },
-        Encoding::Bzip2 => buffered(MultiBzDecoder::new(file)),
-        Encoding::Text => buffered(TextVoxels::new(file, stored_type)),
-        Encoding::Hex => buffered(HexBytes::new(file)),
-    })
 }
 
 fn skip(decoded: &mut dyn BufRead, bytes: u64) -> io::Result<()> {

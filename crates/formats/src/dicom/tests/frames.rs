@@ -99,6 +99,11 @@ fn deflated_files_are_inflated() {
     }
     assert!(folder.open().flat_placement().is_none());
     assert_eq!(levels(folder.open()), [0, 1]);
+    let mut reader = folder.open();
+    bytes(reader.as_mut());
+    let files_bytes: u64 =
+        (0..2).map(|level| fs::metadata(folder.path().join(format!("{level}"))).expect("a file").len()).sum();
+    assert!((1..files_bytes).contains(&reader.bytes_read()), "{} of {files_bytes}", reader.bytes_read());
 }
 
 #[test]
@@ -117,6 +122,9 @@ fn run_length_frames_are_decoded_each_from_its_own_fragment() {
     let slice = Written::slice(0.0, 0).set(tag::NUMBER_OF_FRAMES, "2").set(tag::SPACING_BETWEEN_SLICES, "3");
     folder.write_as(RLE, "0", slice.fragments(&[], &[&frames[0], &frames[1]]));
     assert_eq!(folder.open().desc().spacing_mm.z, 3.0);
+    let mut reader = folder.open();
+    bytes(reader.as_mut());
+    assert_eq!(reader.bytes_read(), 2 * 68, "the bytes of both fragments");
     assert_eq!(levels(folder.open()), [0x1234, 0x0102]);
 }
 
