@@ -1,12 +1,12 @@
 use std::io;
 use std::path::PathBuf;
 
-use glassbrick_volume::ReadError;
+use glassbrick_volume::{ReadError, io_advice};
 
 /// Why a source of bricks cannot be opened or read.
 #[derive(Debug, thiserror::Error)]
 pub enum SourceError {
-    #[error("{}: {source}", .path.display())]
+    #[error("{}: cannot be read: {source}; {}", .path.display(), io_advice(.source))]
     Io { path: PathBuf, source: io::Error },
     #[error(
         "{}: the voxels need {needed} bytes from byte {offset} on, and the file has {len}; it was cut off",

@@ -1,10 +1,12 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use glassbrick_volume::io_advice;
+
 /// Why a file cannot be opened or read as a volume. Each message names the file, says what is wrong, and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum FormatError {
-    #[error("{}: {source}", .path.display())]
+    #[error("{}: cannot be read: {source}; {}", .path.display(), io_advice(.source))]
     Io { path: PathBuf, source: io::Error },
     /// The file contradicts itself or its format.
     #[error("{}: {what}", .path.display())]

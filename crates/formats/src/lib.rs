@@ -96,7 +96,8 @@ fn open_folder(path: &Path, options: &OpenOptions) -> Result<Box<dyn VolumeReade
     }
     let is_zarr = ["zarr.json", ".zgroup", ".zattrs", ".zarray"].iter().any(|name| path.join(name).exists());
     let what = if is_zarr {
-        "is a Zarr folder, but no store of glassbrick; other Zarr volumes are not read"
+        "is a Zarr folder, which glassbrick does not read; save one of its arrays as NRRD, MetaImage or NIfTI, and \
+         open that"
     } else {
         "holds no DICOM file; name a folder of DICOM slices, or a single NRRD, MetaImage, NIfTI or raw file"
     };

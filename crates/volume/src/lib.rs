@@ -52,5 +52,5 @@ pub use visible_bricks::{
     without_nearly_empty,
 };
 pub use volume_desc::{Rescale, VOLUME_MARGIN_VOXELS, VolumeDesc};
-pub use volume_reader::{Endian, FlatPiece, FlatPlacement, ReadError, VolumeReader};
+pub use volume_reader::{Endian, FlatPiece, FlatPlacement, ReadError, VolumeReader, io_advice};
 pub use voxel_count_table::{BandFractions, Bins, BrickRange, VCT_BINS, VoxelCountTable};

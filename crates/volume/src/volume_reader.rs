@@ -1,9 +1,19 @@
+use std::io;
 use std::path::PathBuf;
 
 use crate::VolumeDesc;
 
 /// Why voxels could not be read: one line that says what is wrong, in which file or field, and what to do.
 pub type ReadError = Box<dyn std::error::Error + Send + Sync>;
+
+/// What the user can do about a file that cannot be read, in the words that end the message.
+pub fn io_advice(error: &io::Error) -> &'static str {
+    match error.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => "check the path",
+        io::ErrorKind::PermissionDenied => "check who may read it",
+        _ => "check the disk that it lies on",
+    }
+}
 
 /// A volume in a file format, read as a stream of slices from the first to the last.
 ///

@@ -13,6 +13,13 @@ pub(crate) fn has_time(space: &str) -> bool {
 
 /// Where the header places the voxels.
 pub(crate) fn read(header: &Header, axes: &Axes, notes: &mut Vec<String>) -> Result<Grid, String> {
+    if header.field("space").is_some_and(|space| space.to_ascii_lowercase().starts_with("3d-left-handed")) {
+        notes.push(
+            "the header's space is 3D-left-handed; it is taken as LPS, which is right-handed, so the picture may be \
+             mirrored"
+                .to_owned(),
+        );
+    }
     let (columns, origin) = match header.words("spacedirections", axes.sizes.len())? {
         Some(directions) => {
             if header.field("space").is_none() {

@@ -142,6 +142,8 @@ fn every_space_is_taken_to_lps() {
             "{space}"
         );
         assert_eq!(world_from_voxel.translation, signs * DVec3::new(1.0, 2.0, 3.0), "{space}");
+        let says_mirrored = reader.notes().iter().any(|note| note.contains("mirrored"));
+        assert_eq!(says_mirrored, space.contains("3D-left-handed"), "{space}");
     }
     assert!(
         folder
