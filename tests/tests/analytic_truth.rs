@@ -1,7 +1,8 @@
-//! The reference gives what can be worked out with pen and paper.
+//! The reference, and executors on their own, give what can be worked out with pen and paper.
 
 mod absorption;
 mod cameras;
+mod executors;
 mod shading;
 mod values;
 
