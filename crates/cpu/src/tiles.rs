@@ -40,7 +40,7 @@ impl<T: Send> Tiles<T> {
     ) -> impl Iterator<Item = MutexGuard<'a, T>> + use<'a, T> {
         let columns = rect.min[0] / TILE..rect.max[0].div_ceil(TILE);
         rows.flat_map(move |row| columns.clone().map(move |column| row * self.columns + column))
-            .map(|tile| self.tiles[tile as usize].lock().expect("no thread panics while it holds a tile"))
+            .map(|tile| locked(&self.tiles[tile as usize]))
     }
 
     /// The tiles that meet a rectangle of pixels.
@@ -49,25 +49,34 @@ impl<T: Send> Tiles<T> {
     }
 
     /// The finished picture.
-    pub fn finish(self, kernel: &impl Kernel<Tile = T>, rays: &FrameRays) -> Frame {
+    pub fn finish(&self, kernel: &impl Kernel<Tile = T>, rays: &FrameRays) -> Frame {
         let [width, height] = self.size;
         let mut frame = Frame::transparent(width, height);
-        for (tile, state) in (0..).zip(self.tiles) {
-            let rect = tile_rect(self.size, tile % self.columns, tile / self.columns);
-            let state = state.into_inner().expect("no thread panics while it holds a tile");
-            let pixels =
-                (rect.min[1]..rect.max[1]).flat_map(|row| (rect.min[0]..rect.max[0]).map(move |c| (c, row)));
-            let mut places = pixels.map(|(column, row)| row as usize * width as usize + column as usize);
-            kernel.finish(&state, |rgba, number| {
-                let place = places.next().expect("a tile hands out as many pixels as it has");
-                frame.rgba[place] = rgba;
-                if number != NO_SAMPLE {
-                    frame.depth_mm[place] = rays.depth_mm(number) as f32;
-                }
-            });
-        }
+        // A row of tiles is a run of whole rows of the picture.
+        let run = (width * TILE) as usize;
+        let runs = frame.rgba.par_chunks_mut(run).zip(frame.depth_mm.par_chunks_mut(run));
+        let rows = self.tiles.par_chunks(self.columns as usize).zip(runs).enumerate();
+        rows.for_each(|(row, (tiles, (rgba, depth_mm)))| {
+            for (column, tile) in (0..).zip(tiles) {
+                let PixelRect { min, max } = tile_rect(self.size, column, row as u32);
+                let pixels =
+                    (0..max[1] - min[1]).flat_map(|row| (min[0]..max[0]).map(move |column| (column, row)));
+                let mut places = pixels.map(|(column, row)| (row * width + column) as usize);
+                kernel.finish(&locked(tile), |pixel, number| {
+                    let place = places.next().expect("a tile hands out as many pixels as it has");
+                    rgba[place] = pixel;
+                    if number != NO_SAMPLE {
+                        depth_mm[place] = rays.depth_mm(number) as f32;
+                    }
+                });
+            }
+        });
         frame
     }
+}
+
+fn locked<T>(tile: &Mutex<T>) -> MutexGuard<'_, T> {
+    tile.lock().expect("no thread panics while it holds a tile")
 }
 
 fn tile_rect(size: [u32; 2], column: u32, row: u32) -> PixelRect {
