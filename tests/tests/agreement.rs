@@ -223,3 +223,16 @@ fn dropping_nearly_empty_bricks_is_said_to_be_lossy() {
     assert!(lossy.warnings.iter().any(|warning| warning.contains("not exact")));
     assert!(exact.warnings.is_empty(), "{:?}", exact.warnings);
 }
+
+#[test]
+fn a_picture_reports_its_own_residency_and_not_that_of_the_pictures_before() {
+    let scene = scenes().iter().find(|scene| scene.mode == Mode::Dvr).expect("there is one");
+    let settings = with(BrickLayout { edge: 16, halo: 2 });
+    let volume =
+        Volume::from_array(desc(scene), native_bytes(scene), &settings).expect("a scene's array is sound");
+    let draw =
+        || volume.render(request(scene), &camera(scene)).expect("a scene can be drawn").report.residency;
+    let (first, second) = (draw(), draw());
+    assert!(first.misses > 0);
+    assert_eq!(second.misses, 0, "the bricks are there already");
+}

@@ -72,12 +72,11 @@ pub struct Renderer<'a> {
     level: u32,
     warnings: Vec<String>,
     tables_time: Duration,
-    /// What reports said already: the next one counts from here.
-    reported: Counters,
 }
 
+/// What went through a volume's memory since it was opened.
 #[derive(Clone, Copy, Default)]
-struct Counters {
+pub(crate) struct Counters {
     cache: CacheCounts,
     bytes_read: u64,
 }
@@ -97,15 +96,14 @@ impl<'a> Renderer<'a> {
             volume.threads.install(|| visible_bricks(volume, level, &request, &transfer_function))?;
         let warnings = warnings(volume, &request);
         let tables_time = volume.scan_time() + start.elapsed();
-        let reported = Counters::default();
-        Ok(Self { volume, request, transfer_function, visible, level, warnings, tables_time, reported })
+        Ok(Self { volume, request, transfer_function, visible, level, warnings, tables_time })
     }
 
     /// Draws the picture that a camera sees, `repeat` times for measuring (at least once).
     ///
     /// # Errors
     /// When the camera is impossible, or a brick cannot be read.
-    pub fn draw(&mut self, camera: &Camera, repeat: usize) -> Result<Rendered, Error> {
+    pub fn draw(&self, camera: &Camera, repeat: usize) -> Result<Rendered, Error> {
         let mut render_all = Vec::with_capacity(repeat.max(1));
         let (first, plan_time, in_frustum) = self.draw_once(camera, &mut render_all)?;
         let (residency, load_time) = self.residency();
@@ -199,10 +197,11 @@ impl<'a> Renderer<'a> {
     }
 
     /// What went through memory since the last report, and how long threads waited for bricks.
-    fn residency(&mut self) -> (ResidencyCounts, Duration) {
+    fn residency(&self) -> (ResidencyCounts, Duration) {
         let now =
             Counters { cache: self.volume.source.counts(), bytes_read: self.volume.source.bytes_read() };
-        let before = std::mem::replace(&mut self.reported, now);
+        let mut reported = self.volume.reported.lock().expect("nothing panics while it is held");
+        let before = std::mem::replace(&mut *reported, now);
         let counts = ResidencyCounts {
             budget_bytes: now.cache.budget_bytes,
             peak_bytes: now.cache.peak_bytes,

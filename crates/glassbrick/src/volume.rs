@@ -1,5 +1,5 @@
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use glassbrick_brick_store::{CachedSource, FlatSource};
@@ -7,6 +7,7 @@ use glassbrick_formats::OpenOptions;
 use glassbrick_volume::{BrickLayout, BrickSource, VolumeDesc, VolumeReader, VoxelCountTable};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use crate::renderer::Counters;
 use crate::{Error, Histogram, process_memory};
 
 /// How a volume is opened and held.
@@ -28,6 +29,8 @@ pub struct Volume {
     pub(crate) threads: Arc<ThreadPool>,
     pub(crate) opened_at: Instant,
     pub(crate) open_time: Duration,
+    /// What reports said already: the next one counts from here.
+    pub(crate) reported: Mutex<Counters>,
     format: &'static str,
     notes: Vec<String>,
 }
@@ -78,7 +81,8 @@ impl Volume {
         let budget_bytes = settings.memory_bytes.unwrap_or_else(default_memory_bytes);
         let open_time = start.elapsed().saturating_sub(source.scan_time());
         let source = CachedSource::new(source, budget_bytes, threads.current_num_threads())?;
-        Ok(Self { source, threads, opened_at: start, open_time, format, notes })
+        let reported = Mutex::default();
+        Ok(Self { source, threads, opened_at: start, open_time, reported, format, notes })
     }
 
     /// The volume's grid and place in the world.

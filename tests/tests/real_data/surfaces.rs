@@ -57,7 +57,7 @@ fn surfaces_lie_there(name: &str, volume: &Volume, threshold: f64, points: &[[f6
         step_voxels: 0.25 / volume.desc().smallest_spacing_mm(),
         ..RenderRequest::new(opaque_from(threshold))
     };
-    let mut renderer = Renderer::new(volume, request).expect("a sound request");
+    let renderer = Renderer::new(volume, request).expect("a sound request");
     for &[x, z, y] in points {
         let camera = line(volume, x, z);
         let drawn = renderer.draw(&camera, 1).expect("it can be drawn");

@@ -33,7 +33,7 @@ fn draw(job: &RenderJob, start: Instant) -> Result<Vec<FrameReport>> {
     let progress = Progress::start("drawing");
     let transfer_function = job.transfer_function.for_volume(&volume, job.settings.mode)?;
     let camera = job.view.camera(volume.desc());
-    let mut renderer = Renderer::new(&volume, job.request(transfer_function))?;
+    let renderer = Renderer::new(&volume, job.request(transfer_function))?;
     let frames = job.output.frames();
     let mut files = PictureFiles::create(job)?;
     let mut reports = Vec::new();
