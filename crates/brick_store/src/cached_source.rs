@@ -15,8 +15,8 @@ use crate::decode::brick_bytes;
 ///
 /// The budget holds the bricks that threads work on as well as those that are kept: each thread holds one brick at
 /// a time.
-pub struct CachedSource<S> {
-    source: S,
+pub struct CachedSource {
+    source: Box<dyn BrickSource>,
     kept: Cache<BrickId, Arc<Brick>, ByBytes, DefaultHashBuilder, CountEvictions>,
     evictions: Arc<AtomicU64>,
     budget_bytes: u64,
@@ -62,12 +62,12 @@ impl Lifecycle<BrickId, Arc<Brick>> for CountEvictions {
     }
 }
 
-impl<S: BrickSource> CachedSource<S> {
+impl CachedSource {
     /// Keeps at most `budget_bytes` of bricks for `threads` threads.
     ///
     /// # Errors
     /// When the budget does not hold a brick for each thread.
-    pub fn new(source: S, budget_bytes: u64, threads: usize) -> Result<Self, SourceError> {
+    pub fn new(source: Box<dyn BrickSource>, budget_bytes: u64, threads: usize) -> Result<Self, SourceError> {
         let layout = source.grid(0).layout;
         let one_brick = brick_bytes(source.desc().stored_type, layout);
         let held_bytes = one_brick * threads as u64;
@@ -97,8 +97,8 @@ impl<S: BrickSource> CachedSource<S> {
     }
 
     /// Where the bricks come from.
-    pub fn source(&self) -> &S {
-        &self.source
+    pub fn source(&self) -> &dyn BrickSource {
+        self.source.as_ref()
     }
 
     /// What went through the cache so far.
@@ -116,7 +116,7 @@ impl<S: BrickSource> CachedSource<S> {
     }
 }
 
-impl<S: BrickSource> BrickSource for CachedSource<S> {
+impl BrickSource for CachedSource {
     fn desc(&self) -> &VolumeDesc {
         self.source.desc()
     }
@@ -153,6 +153,12 @@ impl<S: BrickSource> BrickSource for CachedSource<S> {
             self.hits.fetch_add(1, Ordering::Relaxed);
         }
         Ok(brick)
+    }
+
+    fn will_need(&self, bricks: &[BrickId]) {
+        let missing: Vec<BrickId> =
+            bricks.iter().copied().filter(|id| self.kept.peek(id).is_none()).collect();
+        self.source.will_need(&missing);
     }
 
     fn can_hold(&self, bricks: usize) -> bool {

@@ -8,6 +8,8 @@ pub trait Kept: Copy + Default + PartialOrd + Send + Sync + 'static {
     const IS_INTEGER: bool;
 
     fn to_f32(self) -> f32;
+    /// Exact for whole numbers of up to 16 bits.
+    fn to_i32(self) -> i32;
     fn into_voxels(voxels: Vec<Self>) -> Voxels;
 
     fn least(self, other: Self) -> Self {
@@ -28,6 +30,10 @@ macro_rules! kept {
 
             fn to_f32(self) -> f32 {
                 f32::from(self)
+            }
+
+            fn to_i32(self) -> i32 {
+                self as i32
             }
 
             fn into_voxels(voxels: Vec<Self>) -> Voxels {
@@ -113,23 +119,23 @@ stored! {
 /// Calls a generic function with the [`Stored`] of a stored type and byte order.
 macro_rules! with_stored {
     ($stored_type:expr, $endian:expr, $function:ident($($argument:expr),*)) => {{
-        use glassbrick_volume::{Endian::{Big, Little}, StoredType::{F32, F64, I8, I16, I32, U8, U16, U32}};
+        use glassbrick_volume::{Endian as E, StoredType as T};
         use $crate::decode as d;
         match ($stored_type, $endian) {
-            (U8, _) => $function::<d::StoredU8>($($argument),*),
-            (I8, _) => $function::<d::StoredI8>($($argument),*),
-            (U16, Little) => $function::<d::LittleU16>($($argument),*),
-            (I16, Little) => $function::<d::LittleI16>($($argument),*),
-            (U32, Little) => $function::<d::LittleU32>($($argument),*),
-            (I32, Little) => $function::<d::LittleI32>($($argument),*),
-            (F32, Little) => $function::<d::LittleF32>($($argument),*),
-            (F64, Little) => $function::<d::LittleF64>($($argument),*),
-            (U16, Big) => $function::<d::BigU16>($($argument),*),
-            (I16, Big) => $function::<d::BigI16>($($argument),*),
-            (U32, Big) => $function::<d::BigU32>($($argument),*),
-            (I32, Big) => $function::<d::BigI32>($($argument),*),
-            (F32, Big) => $function::<d::BigF32>($($argument),*),
-            (F64, Big) => $function::<d::BigF64>($($argument),*),
+            (T::U8, _) => $function::<d::StoredU8>($($argument),*),
+            (T::I8, _) => $function::<d::StoredI8>($($argument),*),
+            (T::U16, E::Little) => $function::<d::LittleU16>($($argument),*),
+            (T::I16, E::Little) => $function::<d::LittleI16>($($argument),*),
+            (T::U32, E::Little) => $function::<d::LittleU32>($($argument),*),
+            (T::I32, E::Little) => $function::<d::LittleI32>($($argument),*),
+            (T::F32, E::Little) => $function::<d::LittleF32>($($argument),*),
+            (T::F64, E::Little) => $function::<d::LittleF64>($($argument),*),
+            (T::U16, E::Big) => $function::<d::BigU16>($($argument),*),
+            (T::I16, E::Big) => $function::<d::BigI16>($($argument),*),
+            (T::U32, E::Big) => $function::<d::BigU32>($($argument),*),
+            (T::I32, E::Big) => $function::<d::BigI32>($($argument),*),
+            (T::F32, E::Big) => $function::<d::BigF32>($($argument),*),
+            (T::F64, E::Big) => $function::<d::BigF64>($($argument),*),
         }
     }};
 }

@@ -153,6 +153,9 @@ impl BrickSource for FlatSource {
         Ok(Arc::new(cut_brick(&self.desc, &self.voxels, &self.grid, UVec3::new(id.x, id.y, id.z))))
     }
 
+    /// The operating system reads mapped files ahead by itself.
+    fn will_need(&self, _bricks: &[BrickId]) {}
+
     /// Bricks are cut anew each time, and nothing was promised of what becomes of them.
     fn can_hold(&self, _bricks: usize) -> bool {
         false

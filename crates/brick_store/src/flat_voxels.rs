@@ -5,6 +5,7 @@ use glassbrick_volume::{Endian, FlatPlacement, VolumeDesc};
 use memmap2::Mmap;
 
 use crate::SourceError;
+use crate::brick_cut::Slices;
 
 /// The voxels of a whole volume, slice by slice, as bytes of their stored type.
 pub struct FlatVoxels {
@@ -67,8 +68,14 @@ impl FlatVoxels {
         })
     }
 
-    /// The stored bytes of a slice.
-    pub fn slice(&self, z: u32) -> &[u8] {
+    /// Whether reading voxels reads a file.
+    pub fn is_mapped(&self) -> bool {
+        matches!(self.storage, Storage::Mapped(_))
+    }
+}
+
+impl Slices for FlatVoxels {
+    fn slice(&self, z: u32) -> &[u8] {
         let (bytes, start) = match &self.storage {
             Storage::Array(bytes) => (bytes.as_slice(), z as usize * self.slice_bytes),
             Storage::Mapped(pieces) => {
@@ -77,10 +84,5 @@ impl FlatVoxels {
             }
         };
         &bytes[start..start + self.slice_bytes]
-    }
-
-    /// Whether reading voxels reads a file.
-    pub fn is_mapped(&self) -> bool {
-        matches!(self.storage, Storage::Mapped(_))
     }
 }

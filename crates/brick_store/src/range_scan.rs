@@ -3,6 +3,7 @@ use glassbrick_volume::{BrickGrid, BrickRange, VolumeDesc};
 use rayon::prelude::*;
 
 use crate::FlatVoxels;
+use crate::brick_cut::Slices;
 use crate::decode::{Kept, Stored, with_stored};
 
 /// What one pass over a volume finds.

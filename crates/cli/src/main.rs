@@ -1,18 +1,21 @@
-//! The `glassbrick` command: tells what volumes are, draws them, and reports what it drew.
+//! The `glassbrick` command: tells what volumes are, stores and draws them, and reports what it drew.
 //!
 //! A command line is understood in two stages: [`args`] holds what was typed, [`job`] what it means, as plain data that
-//! has been checked. [`info`], [`render`] and [`demo`] then do the work by the `glassbrick` library alone.
+//! has been checked. [`info`], [`ingest`],
+//! [`verify`], [`render`] and [`demo`] then do the work by the `glassbrick` library alone.
 
 mod args;
 mod demo;
 mod figures;
 mod info;
+mod ingest;
 mod job;
 mod parse;
 mod progress;
 mod render;
 mod terminal;
 mod usage;
+mod verify;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -21,7 +24,7 @@ use std::time::Instant;
 use clap::Parser;
 
 use args::{Cli, Command};
-use job::{InfoJob, RenderJob};
+use job::{InfoJob, IngestJob, RenderJob};
 use usage::UsageError;
 
 const EXIT_FAILURE: u8 = 1;
@@ -52,6 +55,8 @@ fn main() -> ExitCode {
 fn run(command: &Command, start: Instant) -> anyhow::Result<()> {
     match command {
         Command::Info(args) => info::run(&InfoJob::new(args)?, start),
+        Command::Ingest(args) => ingest::run(&IngestJob::new(args), start),
+        Command::Verify(args) => verify::run(args),
         Command::Render(args) => render::run(&RenderJob::new(args)?, start),
         Command::Demo(args) => demo::run(args, start),
     }

@@ -24,6 +24,13 @@ impl Progress {
         self.set(done, total, "{msg} {wide_bar} {binary_bytes}/{binary_total_bytes}, {eta} left");
     }
 
+    /// How many bytes of how many are done, and how fast.
+    pub fn rate(&self, done: u64, total: u64) {
+        let template =
+            "{msg} {wide_bar} {binary_bytes}/{binary_total_bytes}, {binary_bytes_per_sec}, {eta} left";
+        self.set(done, total, template);
+    }
+
     /// How many pieces of how many are done.
     pub fn pieces(&self, done: u64, total: u64) {
         self.set(done, total, "{msg} {wide_bar} {pos}/{len}, {eta} left");

@@ -18,7 +18,9 @@ impl std::error::Error for UsageError {}
 pub fn see_help(words: &[OsString]) -> String {
     let command = words.iter().skip(1).filter_map(|word| word.to_str()).find(|word| !word.starts_with('-'));
     match command {
-        Some(command @ ("info" | "render" | "demo")) => format!("see glassbrick {command} --help"),
+        Some(command @ ("info" | "ingest" | "verify" | "render" | "demo")) => {
+            format!("see glassbrick {command} --help")
+        }
         _ => "see glassbrick --help".to_owned(),
     }
 }
@@ -83,6 +85,10 @@ mod tests {
             ("glassbrick render a.nrrd -o b.png --memory -1", "KiB"),
             ("glassbrick render a.nrrd -o b.png --frams 3", "similar argument exists: '--frames'"),
             ("glassbrick render a.nrrd -o b.png --threads 0", "1..=1024"),
+            ("glassbrick ingest a.nrrd", "--output <STORE>"),
+            ("glassbrick ingest a.nrrd -o a.zarr --codec gzip", "[possible values: none, lz4, zstd]"),
+            ("glassbrick ingest a.nrrd -o a.zarr --halo 1", "2..=64"),
+            ("glassbrick verify", "<STORE>"),
             ("glassbrick paint a.nrrd", "unrecognized subcommand 'paint'"),
             ("glassbrick", "requires a subcommand"),
         ] {

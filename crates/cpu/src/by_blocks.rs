@@ -13,13 +13,16 @@ use crate::kernel::{Kernel, common};
 /// Pixels along a block's side: a whole number of tiles.
 const BLOCK: u32 = 32;
 
+/// How many of a block's bricks are hinted at while one is loaded.
+const READ_AHEAD: usize = 2;
+
 /// Draws all blocks; returns how many bricks were loaded.
 pub fn draw<K: Kernel>(picture: &Picture<K>) -> Result<usize, ReadError> {
     let bricks = ordered(picture);
-    let held: Vec<OnceLock<Arc<Brick>>> = bricks.iter().map(|_| OnceLock::new()).collect();
+    let held: Vec<OnceLock<Option<Arc<Brick>>>> = bricks.iter().map(|_| OnceLock::new()).collect();
     let prepared: Vec<OnceLock<Option<K::Prepared<'_>>>> = bricks.iter().map(|_| OnceLock::new()).collect();
     blocks(picture.scene.rays.size.to_array(), &bricks).into_par_iter().try_for_each(|block| {
-        for (place, footprint) in block {
+        for (step, &(place, footprint)) in block.iter().enumerate() {
             let brick = PlannedBrick { footprint, ..*bricks[place] };
             // A brick that is at hand costs no more to try than to look at.
             if held[place].get().is_none() && picture.is_hidden(&brick) {
@@ -28,10 +31,15 @@ pub fn draw<K: Kernel>(picture: &Picture<K>) -> Result<usize, ReadError> {
             let voxels = match held[place].get() {
                 Some(voxels) => voxels,
                 None => {
+                    let coming = block[step + 1..].iter().take(READ_AHEAD).map(|&(place, _)| place);
+                    picture.will_need(
+                        coming.filter(|&place| held[place].get().is_none()).map(|place| bricks[place]),
+                    );
                     let voxels = picture.load(&brick)?;
                     held[place].get_or_init(|| voxels)
                 }
             };
+            let Some(voxels) = voxels else { continue };
             let prepared = prepared[place].get_or_init(|| picture.prepare(bricks[place], voxels));
             if let Some(prepared) = prepared {
                 let tiles = picture.tiles.in_rect(&footprint);

@@ -12,12 +12,17 @@ use crate::tiles::Tiles;
 /// Draws all layers; returns how many bricks were loaded.
 pub fn draw<K: Kernel>(picture: &Picture<K>) -> Result<usize, ReadError> {
     let mut loaded = 0;
-    for layer in &picture.scene.plan.layers {
+    let layers = &picture.scene.plan.layers;
+    for (number, layer) in layers.iter().enumerate() {
         let open: Vec<&PlannedBrick> =
             layer.bricks.par_iter().filter(|brick| !picture.is_hidden(brick)).collect();
         loaded += open.len();
+        if let Some(next) = layers.get(number + 1) {
+            // Some of them will be hidden by this layer; they are hinted at, and then not read.
+            picture.will_need(next.bricks.iter().filter(|brick| !picture.is_hidden(brick)));
+        }
         shares::<K>(&open).into_par_iter().try_for_each(|share| {
-            let brick = picture.load(share.brick)?;
+            let Some(brick) = picture.load(share.brick)? else { return Ok(()) };
             if let Some(prepared) = picture.prepare(share.brick, &brick) {
                 let tiles = picture.tiles.in_rows(share.tile_rows, &share.brick.footprint);
                 let samples = tiles.map(|mut tile| picture.kernel.add_brick(&mut tile, &prepared)).sum();

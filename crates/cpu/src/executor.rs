@@ -1,5 +1,6 @@
-use std::sync::Arc;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
 
 use glam::UVec3;
 use glassbrick_volume::{
@@ -17,6 +18,8 @@ pub struct CpuScene<'a> {
     pub plan: &'a FramePlan,
     pub transfer_function: &'a BakedTransferFunction,
     pub settings: RenderSettings,
+    /// Whether bricks that cannot be read are left out; else the first one ends the drawing.
+    pub allow_damaged: bool,
 }
 
 /// A finished frame and what it took.
@@ -28,6 +31,8 @@ pub struct CpuFrame {
     pub occluded: usize,
     /// Planned bricks of which at least one sample was evaluated.
     pub rendered: usize,
+    /// Why bricks were left out that could not be read, by place in the grid.
+    pub damaged: BTreeMap<u32, String>,
 }
 
 /// Draws a planned frame with one kernel: block by block of the picture where all its bricks can be held at once, else
@@ -48,6 +53,7 @@ pub fn draw_with<K: Kernel>(
         occluded: scene.plan.bricks() - loaded,
         rendered: picture.is_rendered.iter().filter(|flag| flag.load(Ordering::Relaxed)).count(),
         samples: picture.samples.into_inner(),
+        damaged: picture.damaged.into_inner().expect("nothing panics while it is held"),
         frame: picture.tiles.finish(kernel, scene.rays),
     })
 }
@@ -63,6 +69,7 @@ pub struct Picture<'a, K: Kernel> {
     samples: AtomicU64,
     /// By place in the grid.
     is_rendered: Vec<AtomicBool>,
+    damaged: Mutex<BTreeMap<u32, String>>,
 }
 
 impl<'a, K: Kernel> Picture<'a, K> {
@@ -77,6 +84,7 @@ impl<'a, K: Kernel> Picture<'a, K> {
             grid,
             samples: AtomicU64::new(0),
             is_rendered: (0..grid.len()).map(|_| AtomicBool::new(false)).collect(),
+            damaged: Mutex::default(),
         }
     }
 
@@ -88,10 +96,28 @@ impl<'a, K: Kernel> Picture<'a, K> {
             && tiles.all(|tile| self.kernel.is_unchanged_by(&tile, &brick.footprint, reach))
     }
 
-    /// The voxels of a planned brick.
-    pub fn load(&self, brick: &PlannedBrick) -> Result<Arc<Brick>, ReadError> {
+    /// The voxels of a planned brick; nothing of a damaged one that may be left out.
+    pub fn load(&self, brick: &PlannedBrick) -> Result<Option<Arc<Brick>>, ReadError> {
+        match self.source.brick(self.id(brick)) {
+            Ok(voxels) => Ok(Some(voxels)),
+            Err(error) if self.scene.allow_damaged => {
+                let mut damaged = self.damaged.lock().expect("nothing panics while it is held");
+                damaged.entry(brick.index).or_insert_with(|| error.to_string());
+                Ok(None)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Tells the source which bricks may be loaded soon.
+    pub fn will_need<'b>(&self, bricks: impl Iterator<Item = &'b PlannedBrick>) {
+        let ids: Vec<BrickId> = bricks.map(|brick| self.id(brick)).collect();
+        self.source.will_need(&ids);
+    }
+
+    fn id(&self, brick: &PlannedBrick) -> BrickId {
         let UVec3 { x, y, z } = self.grid.brick(brick.index as usize);
-        self.source.brick(BrickId { level: self.scene.plan.level, x, y, z })
+        BrickId { level: self.scene.plan.level, x, y, z }
     }
 
     /// What the kernel makes of a brick; nothing where it holds nothing to draw.

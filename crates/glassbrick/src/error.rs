@@ -1,7 +1,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use glassbrick_brick_store::SourceError;
+use glassbrick_brick_store::{SourceError, StoreError};
 use glassbrick_formats::FormatError;
 use glassbrick_volume::ReadError;
 
@@ -27,12 +27,15 @@ pub enum Error {
     /// The volume cannot be opened as a source of bricks.
     #[error(transparent)]
     Source(#[from] SourceError),
+    /// A brick store cannot be made or read.
+    #[error(transparent)]
+    Store(#[from] StoreError),
     /// Voxels cannot be read.
     #[error("{0}")]
     Voxels(#[from] ReadError),
     /// A volume that must be read whole is larger than memory.
     #[error(
-        "{}: cannot be read in place, and reading it whole needs {needed_bytes} bytes of memory, of which {available_bytes} are free; convert it to an uncompressed file, which is read in place",
+        "{}: cannot be read in place, and reading it whole needs {needed_bytes} bytes of memory, of which {available_bytes} are free; make a store of it by glassbrick ingest, which needs little memory",
         .path.display()
     )]
     DoesNotFit { path: PathBuf, needed_bytes: u64, available_bytes: u64 },

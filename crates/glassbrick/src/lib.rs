@@ -26,10 +26,13 @@ mod error;
 mod histogram;
 mod presets;
 mod process_memory;
+mod render_request;
 mod renderer;
 mod report_json;
 mod settings_file;
+mod store;
 mod transfer_function_file;
+mod visible_levels;
 mod volume;
 
 pub use auto_transfer_function::auto_transfer_function;
@@ -39,6 +42,7 @@ pub use encode::{
     check_text_file, write_picture, write_text_file,
 };
 pub use error::Error;
+pub use glassbrick_brick_store::{Codec, Ingested, StoreDesc, Verified};
 pub use glassbrick_cpu::InstructionSet;
 pub use glassbrick_formats::{OpenOptions, RawLayout};
 pub use glassbrick_volume::{
@@ -49,7 +53,9 @@ pub use glassbrick_volume::{
 pub use histogram::Histogram;
 pub use presets::{PRESETS, Preset, preset};
 pub use process_memory::{MemoryPeaks, peaks as memory_peaks};
-pub use renderer::{LevelChoice, RenderRequest, Rendered, Renderer};
+pub use render_request::{LevelChoice, RenderRequest};
+pub use renderer::{Rendered, Renderer};
 pub use report_json::report_json;
+pub use store::{IngestSettings, ingest, stored_bytes, verify};
 pub use transfer_function_file::read_transfer_function;
 pub use volume::{OpenSettings, Volume};

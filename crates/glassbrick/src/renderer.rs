@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use glam::UVec2;
@@ -5,56 +6,11 @@ use glassbrick_brick_store::CacheCounts;
 use glassbrick_cpu::{CpuFrame, CpuScene, InstructionSet};
 use glassbrick_volume::{
     BakedTransferFunction, BrickCounts, BrickSource, Camera, Frame, FramePlan, FrameRays, FrameReport, Mode,
-    NearlyEmpty, RenderSettings, ResidencyCounts, Skip, StageTimes, TransferFunction, VisibleBricks,
-    all_bricks, filtered_visible, without_nearly_empty,
+    NearlyEmpty, ResidencyCounts, Skip, StageTimes, VisibleBricks,
 };
 
-use crate::{Error, Volume, process_memory};
-
-/// Pixels along a side of a picture, at most.
-const MOST_PIXELS: u32 = 32_768;
-
-/// Memory that a pixel takes at least: colour, opacity and depth, and three bytes of its picture.
-const PIXEL_BYTES: u64 = 5 * size_of::<f32>() as u64 + 3;
-
-/// What is to be drawn, besides the volume and the camera.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RenderRequest {
-    pub transfer_function: TransferFunction,
-    /// Width and height in pixels.
-    pub size: [u32; 2],
-    /// Distance of samples, in voxels of the smallest spacing.
-    pub step_voxels: f64,
-    pub settings: RenderSettings,
-    /// Nearly empty bricks to drop, in direct volume rendering; loses something of the picture.
-    pub nearly_empty: NearlyEmpty,
-    pub level: LevelChoice,
-    /// What the processor draws with; the best that it has where nothing is said.
-    pub instruction_set: Option<InstructionSet>,
-}
-
-impl RenderRequest {
-    /// The defaults for a transfer function: 512×512 pixels, one-voxel steps, everything exact.
-    pub fn new(transfer_function: TransferFunction) -> Self {
-        Self {
-            transfer_function,
-            size: [512, 512],
-            step_voxels: 1.0,
-            settings: RenderSettings::default(),
-            nearly_empty: NearlyEmpty::KEEP,
-            level: LevelChoice::Auto,
-            instruction_set: None,
-        }
-    }
-}
-
-/// Which level of the volume to draw.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LevelChoice {
-    /// The coarsest whose voxels are no larger than a pixel; 0 where there is but one level.
-    Auto,
-    Exact(u32),
-}
+use crate::visible_levels::{VisibleLevels, choose_level};
+use crate::{Error, RenderRequest, Volume, process_memory};
 
 /// A finished picture and what is said about it.
 #[derive(Clone, Debug)]
@@ -68,8 +24,7 @@ pub struct Renderer<'a> {
     volume: &'a Volume,
     request: RenderRequest,
     transfer_function: BakedTransferFunction,
-    visible: VisibleBricks,
-    level: u32,
+    visible: VisibleLevels,
     warnings: Vec<String>,
     tables_time: Duration,
 }
@@ -82,38 +37,38 @@ pub(crate) struct Counters {
 }
 
 impl<'a> Renderer<'a> {
-    /// Finds what the transfer function can see.
+    /// Bakes the transfer function; what it can see of a level is found when that is first drawn.
     ///
     /// # Errors
-    /// When the request is impossible, or tables cannot be read.
+    /// When the request is impossible.
     pub fn new(volume: &'a Volume, request: RenderRequest) -> Result<Self, Error> {
         let start = Instant::now();
-        check(&request)?;
-        let level = choose_level(volume, request.level)?;
-        let desc = volume.desc();
-        let transfer_function = request.transfer_function.bake(desc.smallest_spacing_mm());
-        let visible =
-            volume.threads.install(|| visible_bricks(volume, level, &request, &transfer_function))?;
+        request.check()?;
+        let transfer_function = request.transfer_function.bake(volume.desc().smallest_spacing_mm());
         let warnings = warnings(volume, &request);
         let tables_time = volume.scan_time() + start.elapsed();
-        Ok(Self { volume, request, transfer_function, visible, level, warnings, tables_time })
+        let visible = VisibleLevels::new();
+        Ok(Self { volume, request, transfer_function, visible, warnings, tables_time })
     }
 
     /// Draws the picture that a camera sees, `repeat` times for measuring (at least once).
     ///
     /// # Errors
-    /// When the camera is impossible, or a brick cannot be read.
+    /// When the camera or the level is impossible, or a brick or table cannot be read.
     pub fn draw(&self, camera: &Camera, repeat: usize) -> Result<Rendered, Error> {
+        let level = choose_level(self.volume, &self.request, camera)?;
+        let visible = self.visible.at(self.volume, level, &self.request, &self.transfer_function)?;
         let mut render_all = Vec::with_capacity(repeat.max(1));
-        let (first, plan_time, in_frustum) = self.draw_once(camera, &mut render_all)?;
+        let (first, plan_time, in_frustum) = self.draw_once(camera, level, &visible, &mut render_all)?;
         let (residency, load_time) = self.residency();
         for _ in 1..repeat {
-            self.draw_once(camera, &mut render_all)?;
+            self.draw_once(camera, level, &visible, &mut render_all)?;
         }
         // What repeats went through is nobody's: the next report counts from here.
         self.residency();
-        let bricks = self.brick_counts(&first, in_frustum);
+        let bricks = self.brick_counts(&first, level, &visible, in_frustum);
         let mut warnings = self.warnings.clone();
+        warnings.extend(left_out(&first.damaged));
         warnings.extend(self.why_nothing_is_shown(&first.frame, &bricks));
         let milliseconds = |time: Duration| time.as_secs_f64() * 1e3;
         let peaks = process_memory::peaks();
@@ -129,7 +84,7 @@ impl<'a> Renderer<'a> {
             pass: "layers",
             mode: self.request.settings.mode.name(),
             size: self.request.size,
-            level: self.level,
+            level,
             step: self.request.step_voxels,
             opacity_cutoff: self.request.settings.opacity_cutoff,
             alpha: self.request.nearly_empty.alpha,
@@ -137,10 +92,10 @@ impl<'a> Renderer<'a> {
             bricks,
             residency,
             samples: Some(first.samples),
-            complete: true,
+            complete: first.damaged.is_empty(),
             time_ms: StageTimes {
                 open: milliseconds(self.volume.open_time),
-                tables: milliseconds(self.tables_time),
+                tables: milliseconds(self.tables_time + self.visible.time()),
                 plan: milliseconds(plan_time),
                 load: milliseconds(load_time),
                 render: median(&render_all),
@@ -159,20 +114,23 @@ impl<'a> Renderer<'a> {
     fn draw_once(
         &self,
         camera: &Camera,
+        level: u32,
+        visible: &VisibleBricks,
         render_all: &mut Vec<f64>,
     ) -> Result<(CpuFrame, Duration, usize), Error> {
         let start = Instant::now();
         let size = UVec2::from_array(self.request.size);
-        let rays = FrameRays::new(self.volume.desc(), camera, size, self.request.step_voxels)
+        let rays = FrameRays::new(&self.volume.desc().level(level), camera, size, self.request.step_voxels)
             .map_err(Error::View)?;
         let source = &self.volume.source;
-        let plan = FramePlan::new(self.level, &source.grid(self.level), &rays, &self.visible.bricks);
+        let plan = FramePlan::new(level, &source.grid(level), &rays, &visible.bricks);
         let plan_time = start.elapsed();
         let scene = CpuScene {
             rays: &rays,
             plan: &plan,
             transfer_function: &self.transfer_function,
             settings: self.request.settings,
+            allow_damaged: self.request.allow_damaged,
         };
         let drawn =
             self.volume.threads.install(|| glassbrick_cpu::draw(source, &scene, self.instruction_set()))?;
@@ -184,15 +142,22 @@ impl<'a> Renderer<'a> {
         self.request.instruction_set.unwrap_or_else(InstructionSet::best)
     }
 
-    fn brick_counts(&self, drawn: &CpuFrame, in_frustum: usize) -> BrickCounts {
+    fn brick_counts(
+        &self,
+        drawn: &CpuFrame,
+        level: u32,
+        visible: &VisibleBricks,
+        in_frustum: usize,
+    ) -> BrickCounts {
         BrickCounts {
-            total: self.volume.source.grid(self.level).len(),
-            empty: self.visible.empty,
-            filtered_visible: self.visible.bricks.len(),
+            total: self.volume.source.grid(level).len(),
+            empty: visible.empty,
+            filtered_visible: visible.bricks.len(),
             in_frustum,
             occluded: drawn.occluded,
             rendered: drawn.rendered,
             boundary_pinned: 0,
+            damaged: drawn.damaged.len(),
         }
     }
 
@@ -246,58 +211,6 @@ impl Volume {
     }
 }
 
-fn check(request: &RenderRequest) -> Result<(), Error> {
-    if request.size.iter().any(|pixels| !(1..=MOST_PIXELS).contains(pixels)) {
-        return Err(Error::View("a picture has 1 to 32768 pixels on a side"));
-    }
-    let frame_bytes = request.size.iter().map(|&pixels| u64::from(pixels)).product::<u64>() * PIXEL_BYTES;
-    if process_memory::available_bytes().is_some_and(|available| frame_bytes > available) {
-        return Err(Error::View(
-            "a picture of this size does not fit into the memory that is free; make it smaller",
-        ));
-    }
-    if request.instruction_set.is_some_and(|set| !set.is_available()) {
-        return Err(Error::View("this processor does not have the instructions that were asked for"));
-    }
-    let unit = 0.0..=1.0;
-    if !unit.contains(&request.nearly_empty.alpha) || !unit.contains(&request.nearly_empty.beta) {
-        return Err(Error::View("alpha and beta lie between 0 and 1"));
-    }
-    if request.settings.opacity_cutoff.is_nan() || request.settings.opacity_cutoff <= 0.0 {
-        return Err(Error::View("the opacity cutoff lies above 0; 1 never stops"));
-    }
-    Ok(())
-}
-
-fn choose_level(volume: &Volume, choice: LevelChoice) -> Result<u32, Error> {
-    let last = volume.source.levels() - 1;
-    match choice {
-        LevelChoice::Auto => Ok(0),
-        LevelChoice::Exact(level) if level <= last => Ok(level),
-        LevelChoice::Exact(level) => Err(Error::Level { level, last }),
-    }
-}
-
-/// The bricks worth drawing. A projection shows values, not opacities: there every brick counts.
-fn visible_bricks(
-    volume: &Volume,
-    level: u32,
-    request: &RenderRequest,
-    transfer_function: &BakedTransferFunction,
-) -> Result<VisibleBricks, Error> {
-    let source = &volume.source;
-    if request.settings.mode != Mode::Dvr || request.settings.skip == Skip::None {
-        return Ok(all_bricks(&source.grid(level)));
-    }
-    let (bands, rescale) = (transfer_function.bands(), source.desc().rescale);
-    let visible = filtered_visible(source.ranges(level), &bands, rescale);
-    if !request.nearly_empty.is_lossy() {
-        return Ok(visible);
-    }
-    let tables = source.voxel_count_tables(level)?;
-    Ok(without_nearly_empty(visible, &tables, &bands, rescale, request.nearly_empty))
-}
-
 fn warnings(volume: &Volume, request: &RenderRequest) -> Vec<String> {
     let mut warnings = volume.notes().to_vec();
     let not_finite = volume.source.not_finite();
@@ -315,6 +228,17 @@ fn warnings(volume: &Volume, request: &RenderRequest) -> Vec<String> {
         });
     }
     warnings
+}
+
+/// Which bricks were left out, for the first of them.
+fn left_out(damaged: &BTreeMap<u32, String>) -> Vec<String> {
+    const NAMED: usize = 10;
+    let mut told: Vec<String> =
+        damaged.values().take(NAMED).map(|why| format!("a brick is left out: {why}")).collect();
+    if damaged.len() > NAMED {
+        told.push(format!("{} more bricks are left out", damaged.len() - NAMED));
+    }
+    told
 }
 
 fn median(times: &[f64]) -> f64 {

@@ -31,6 +31,7 @@ pub fn report_json(report: &FrameReport) -> Value {
             "rendered": bricks.rendered,
             "rendered_fraction": bricks.rendered_fraction(),
             "boundary_pinned": bricks.boundary_pinned,
+            "damaged": bricks.damaged,
         },
         "residency": {
             "budget_bytes": residency.budget_bytes,

@@ -1,6 +1,7 @@
 use glam::{IVec3, UVec3, Vec3};
 
 use crate::VOLUME_MARGIN_VOXELS;
+use crate::volume_level::{level_end, level_extent};
 
 /// How a volume is cut: bricks of `edge`³ voxels, of which a halo on every side repeats the neighbours' voxels.
 ///
@@ -33,7 +34,24 @@ impl BrickLayout {
 
     /// The grid of bricks that covers a volume of `extent` voxels.
     pub fn grid(self, extent: UVec3) -> BrickGrid {
-        BrickGrid { layout: self, extent, counts: extent.map(|n| n.div_ceil(self.core())) }
+        self.level_grid(extent, 0)
+    }
+
+    /// The grid of bricks that covers a level of a volume that has `extent` voxels at level 0.
+    pub fn level_grid(self, extent: UVec3, level: u32) -> BrickGrid {
+        let level_extent = level_extent(extent, level);
+        BrickGrid {
+            layout: self,
+            extent: level_extent,
+            end: level_end(extent, level).as_vec3(),
+            counts: level_extent.map(|n| n.div_ceil(self.core())),
+        }
+    }
+
+    /// How many levels a volume has until one brick is left.
+    pub fn levels(self, extent: UVec3) -> u32 {
+        let is_one_brick = |level| level_extent(extent, level).max_element() <= self.core();
+        1 + (0..).find(|&level| is_one_brick(level)).expect("an extent of 32 bits is halved to one voxel")
     }
 }
 
@@ -47,11 +65,13 @@ pub struct BrickId {
 }
 
 /// The bricks of one level of a volume.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BrickGrid {
     pub layout: BrickLayout,
     /// Voxels of the level.
     pub extent: UVec3,
+    /// Where the level's box ends, in its voxel coordinates: at level 0 half a voxel beyond the last centre.
+    pub end: Vec3,
     /// Bricks along each axis.
     pub counts: UVec3,
 }
@@ -103,14 +123,14 @@ impl BrickGrid {
         let last = (brick + 1).cmpeq(self.counts);
         let low = self.core_start(brick).as_vec3() - 0.5;
         let high = self.core_end(brick).as_vec3() - 0.5;
-        [Vec3::select(first, low - margin, low), Vec3::select(last, high + margin, high)]
+        [Vec3::select(first, low - margin, low), Vec3::select(last, self.end + margin, high)]
     }
 
     /// The one brick that a sample at this position belongs to; none outside the volume.
     pub fn owner(&self, sample_voxel: Vec3) -> Option<UVec3> {
         let margin = VOLUME_MARGIN_VOXELS as f32;
         let inside = sample_voxel.cmpge(Vec3::splat(-0.5 - margin)).all()
-            && sample_voxel.cmplt(self.extent.as_vec3() - 0.5 + margin).all();
+            && sample_voxel.cmplt(self.end + margin).all();
         let cell = (sample_voxel + 0.5).floor().as_ivec3().max(IVec3::ZERO).as_uvec3();
         inside.then(|| (cell / self.layout.core()).min(self.counts - 1))
     }
@@ -136,6 +156,25 @@ mod tests {
                 .collect();
             assert_eq!(owners, grid.owner(sample).into_iter().collect::<Vec<_>>(), "y = {y}");
         }
+    }
+
+    #[test]
+    fn levels_end_with_one_brick() {
+        let layout = BrickLayout::default();
+        assert_eq!(layout.levels(UVec3::new(60, 1, 60)), 1);
+        assert_eq!(layout.levels(UVec3::new(61, 1, 1)), 2);
+        assert_eq!(layout.levels(UVec3::new(512, 304, 1730)), 6);
+        assert_eq!(layout.levels(UVec3::MAX), 28);
+    }
+
+    #[test]
+    fn a_level_ends_where_level_0_does() {
+        let grid = BrickLayout { edge: 8, halo: 2 }.level_grid(UVec3::new(9, 8, 5), 1);
+        assert_eq!((grid.extent, grid.counts), (UVec3::new(5, 4, 3), UVec3::new(2, 1, 1)));
+        let margin = VOLUME_MARGIN_VOXELS as f32;
+        assert_eq!(grid.owned_box(UVec3::X)[1], Vec3::new(4.0, 3.5, 2.0) + margin);
+        assert_eq!(grid.owner(Vec3::new(3.9, 0.0, 2.0)), Some(UVec3::X));
+        assert_eq!(grid.owner(Vec3::new(3.9, 0.0, 2.1)), None);
     }
 
     #[test]

@@ -28,6 +28,9 @@ pub trait BrickSource: Send + Sync {
     /// When it cannot be read; the message names it.
     fn brick(&self, id: BrickId) -> Result<Arc<Brick>, ReadError>;
 
+    /// Hints that bricks may soon be asked for, so that slow storage can begin to bring them; reads none.
+    fn will_need(&self, bricks: &[BrickId]);
+
     /// Whether that many bricks can be in use at once without going over the memory that was promised.
     fn can_hold(&self, bricks: usize) -> bool;
 

@@ -131,6 +131,12 @@ impl Camera {
         Ok(CameraBasis { forward, right, up: right.cross(forward) })
     }
 
+    /// The size of a pixel of a picture of `size` pixels, in mm: at a depth in mm for a perspective camera.
+    pub fn pixel_mm(&self, size: UVec2, depth_mm: f64) -> f64 {
+        let height = 2.0 * self.half_extent(size)[1] / f64::from(size.y);
+        if matches!(self.projection, Projection::Perspective { .. }) { height * depth_mm } else { height }
+    }
+
     /// Half the width and height of the picture: at depth 1 for a perspective camera, in mm for an orthographic one.
     pub fn half_extent(&self, size: UVec2) -> [f64; 2] {
         let half_height = match self.projection {

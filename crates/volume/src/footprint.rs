@@ -107,7 +107,8 @@ mod tests {
     fn scene(camera: impl Fn(&VolumeDesc) -> Camera) -> (FrameRays, BrickGrid) {
         let desc = VolumeDesc::new(UVec3::new(90, 70, 130), StoredType::U8);
         let grid = BrickLayout { edge: 32, halo: 2 }.grid(desc.extent);
-        let rays = FrameRays::new(&desc, &camera(&desc), UVec2::new(40, 30), 1.0).expect("sound camera");
+        let rays =
+            FrameRays::new(&desc.level(0), &camera(&desc), UVec2::new(40, 30), 1.0).expect("sound camera");
         (rays, grid)
     }
 

@@ -86,7 +86,8 @@ mod tests {
     fn plan(camera: impl Fn(&VolumeDesc) -> Camera) -> (FramePlan, FrameRays, BrickGrid) {
         let desc = VolumeDesc::new(UVec3::new(120, 90, 61), StoredType::U8);
         let grid = BrickLayout { edge: 34, halo: 2 }.grid(desc.extent);
-        let rays = FrameRays::new(&desc, &camera(&desc), UVec2::new(33, 27), 1.0).expect("sound camera");
+        let rays =
+            FrameRays::new(&desc.level(0), &camera(&desc), UVec2::new(33, 27), 1.0).expect("sound camera");
         let all: Vec<u32> = (0..grid.len() as u32).collect();
         (FramePlan::new(0, &grid, &rays, &all), rays, grid)
     }

@@ -46,6 +46,8 @@ pub struct BrickCounts {
     /// Bricks of which at least one sample was evaluated.
     pub rendered: usize,
     pub boundary_pinned: usize,
+    /// Bricks that could not be read and were left out.
+    pub damaged: usize,
 }
 
 impl BrickCounts {

@@ -30,6 +30,7 @@ mod stored_type;
 mod transfer_function;
 mod visible_bricks;
 mod volume_desc;
+mod volume_level;
 mod volume_reader;
 mod voxel_count_table;
 
@@ -52,5 +53,6 @@ pub use visible_bricks::{
     without_nearly_empty,
 };
 pub use volume_desc::{Rescale, VOLUME_MARGIN_VOXELS, VolumeDesc};
+pub use volume_level::VolumeLevel;
 pub use volume_reader::{Endian, FlatPiece, FlatPlacement, ReadError, VolumeReader, io_advice};
 pub use voxel_count_table::{BandFractions, Bins, BrickRange, VCT_BINS, VoxelCountTable};

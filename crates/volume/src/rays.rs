@@ -1,7 +1,7 @@
 use glam::{DVec3, UVec2, Vec3};
 
 use crate::volume_desc::box_corners;
-use crate::{Camera, CameraBasis, Projection, VOLUME_MARGIN_VOXELS, VolumeDesc};
+use crate::{Camera, CameraBasis, Projection, VOLUME_MARGIN_VOXELS, VolumeLevel};
 
 /// More samples than this along a ray would not be told apart by an `f32` sample number.
 const MOST_SAMPLES: f64 = (1 << 24) as f64;
@@ -49,24 +49,24 @@ impl Ray {
 }
 
 impl FrameRays {
-    /// The rays of `camera` through a picture of `size` pixels, with samples `step_voxels` of the smallest spacing
-    /// apart.
+    /// The rays of `camera` through a picture of `size` pixels, with samples `step_voxels` of the level's smallest
+    /// spacing apart.
     ///
     /// # Errors
     /// When the camera is impossible or the step too small for this volume: which, as a sentence.
     pub fn new(
-        desc: &VolumeDesc,
+        level: &VolumeLevel,
         camera: &Camera,
         size: UVec2,
         step_voxels: f64,
     ) -> Result<Self, &'static str> {
         let CameraBasis { forward, right, up } = camera.basis()?;
+        let desc = &level.desc;
         if !(step_voxels > 0.0 && step_voxels.is_finite()) {
             return Err("the step must be a positive number of voxels");
         }
         let step_mm = step_voxels * desc.smallest_spacing_mm();
-        let (low, high) =
-            (DVec3::splat(-0.5 - VOLUME_MARGIN_VOXELS), desc.extent.as_dvec3() - 0.5 + VOLUME_MARGIN_VOXELS);
+        let (low, high) = (DVec3::splat(-0.5 - VOLUME_MARGIN_VOXELS), level.end + VOLUME_MARGIN_VOXELS);
         let world_from_voxel = desc.world_from_voxel();
         let depths = box_corners(low, high)
             .map(|corner| (world_from_voxel.transform_point3(corner) - camera.eye_mm).dot(forward));
@@ -138,14 +138,14 @@ impl FrameRays {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{NamedView, StoredType};
+    use crate::{NamedView, StoredType, VolumeDesc};
     use glam::UVec3;
 
     #[test]
     fn the_middle_ray_looks_at_the_target() {
         let desc = VolumeDesc::new(UVec3::new(100, 60, 80), StoredType::U8);
         let camera = Camera::framing(&desc, NamedView::Front);
-        let rays = FrameRays::new(&desc, &camera, UVec2::new(65, 33), 1.0).expect("sound camera");
+        let rays = FrameRays::new(&desc.level(0), &camera, UVec2::new(65, 33), 1.0).expect("sound camera");
         let ray = rays.ray(32, 16);
         assert!((ray.start.x - 49.5).abs() < 1e-4 && (ray.start.z - 39.5).abs() < 1e-4);
         assert!(ray.step.distance(Vec3::Y) < 1e-6);
@@ -160,7 +160,7 @@ mod tests {
             target_mm: DVec3::new(50.0, 90.0, 50.0),
             ..Camera::framing(&desc, NamedView::Front)
         };
-        let rays = FrameRays::new(&desc, &camera, UVec2::new(1, 1), 1.0).expect("sound camera");
+        let rays = FrameRays::new(&desc.level(0), &camera, UVec2::new(1, 1), 1.0).expect("sound camera");
         assert_eq!(rays.first_sample, 0);
         assert!(rays.ray(0, 0).sample(0).distance(Vec3::new(50.0, 50.5, 50.0)) < 1e-5);
     }
@@ -172,7 +172,7 @@ mod tests {
             ..VolumeDesc::new(UVec3::new(40, 50, 60), StoredType::U8)
         };
         let camera = Camera::framing_around(&desc, 33.0, 21.0);
-        let rays = FrameRays::new(&desc, &camera, UVec2::new(64, 48), 1.0).expect("sound camera");
+        let rays = FrameRays::new(&desc.level(0), &camera, UVec2::new(64, 48), 1.0).expect("sound camera");
         let sample = rays.ray(10, 40).sample(5).as_dvec3();
         let [right, up, depth] =
             rays.picture_from_voxel().map(|(direction, offset)| direction.dot(sample) + offset);

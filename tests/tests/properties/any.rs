@@ -81,7 +81,8 @@ impl View {
     }
 
     pub fn rays(&self) -> FrameRays {
-        FrameRays::new(&self.desc, &self.camera, self.size, self.step_voxels).expect("a sound camera")
+        FrameRays::new(&self.desc.level(0), &self.camera, self.size, self.step_voxels)
+            .expect("a sound camera")
     }
 }
 

@@ -44,6 +44,13 @@ pub enum SkipChoice {
     All,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CodecChoice {
+    None,
+    Lz4,
+    Zstd,
+}
+
 /// The side of the patient that faces the viewer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ViewChoice {

@@ -9,13 +9,13 @@ use crate::parse;
 /// Which volume, and how it is opened.
 #[derive(Args, Clone, Debug)]
 pub struct InputArgs {
-    /// A volume file (NRRD, MetaImage, NIfTI, DICOM, raw) or a folder of DICOM slices
+    /// A brick store, a volume file (NRRD, MetaImage, NIfTI, DICOM, raw) or a folder of DICOM slices
     #[arg(value_name = "INPUT")]
     pub path: PathBuf,
     /// The time step to read where there are several, from 0
     #[arg(long, value_name = "N")]
     pub time: Option<u32>,
-    /// Voxels along an edge of a brick, with the halo of 2 on each side
+    /// Voxels along an edge of a brick, halo included; a store keeps its own
     #[arg(long, value_name = "VOXELS", default_value_t = 64, value_parser = clap::value_parser!(u32).range(8..=512))]
     pub brick: u32,
     /// Threads to work with; as many as there are processors by default

@@ -3,19 +3,24 @@
 mod choices;
 mod demo;
 mod info;
+mod ingest;
 mod input;
 mod render;
+mod verify;
 mod view;
 
 use clap::{Parser, Subcommand};
 
 pub use choices::{
-    BackendChoice, DemoSize, EndianChoice, ModeChoice, PassChoice, ShadingChoice, SkipChoice, ViewChoice,
+    BackendChoice, CodecChoice, DemoSize, EndianChoice, ModeChoice, PassChoice, ShadingChoice, SkipChoice,
+    ViewChoice,
 };
 pub use demo::DemoArgs;
 pub use info::InfoArgs;
+pub use ingest::IngestArgs;
 pub use input::{InputArgs, RawArgs};
 pub use render::RenderArgs;
+pub use verify::VerifyArgs;
 pub use view::ViewArgs;
 
 /// Renders volumes that do not fit into memory, and tells with every picture what it drew and what it skipped.
@@ -30,9 +35,13 @@ pub struct Cli {
 pub enum Command {
     /// Tells what a volume is and, with a transfer function, what that needs of it
     Info(InfoArgs),
+    /// Makes a brick store of a volume, from which any part of it is read at once
+    Ingest(IngestArgs),
+    /// Checks every brick and table of a store, and names those that are damaged
+    Verify(VerifyArgs),
     /// Draws a picture of a volume, or a turn around it
     Render(Box<RenderArgs>),
-    /// Makes a body, draws it and shows the report: a first look that needs no data
+    /// Makes a body, stores and draws it and shows the report: a first look that needs no data
     Demo(DemoArgs),
 }
 

@@ -55,6 +55,9 @@ pub struct RenderArgs {
     /// Level of the volume to draw, 0 the finest; auto takes the coarsest whose voxels are no larger than a pixel
     #[arg(long, value_name = "auto|N", default_value = "auto", allow_negative_numbers = true, value_parser = parse::level)]
     pub level: LevelChoice,
+    /// Leaves out bricks of a store that are damaged, and says so in the report
+    #[arg(long)]
+    pub allow_damaged: bool,
     /// Memory for decoded bricks, with KB, MB, GB, KiB, MiB or GiB; a quarter of the machine's by default
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = parse::bytes)]
     pub memory: Option<u64>,

@@ -1,4 +1,4 @@
-//! `glassbrick demo`: makes a body, draws it in several ways, and shows what each picture took.
+//! `glassbrick demo`: makes a body, stores it, draws it in several ways, and shows what each picture took.
 
 mod pictures;
 mod table;
@@ -9,8 +9,8 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use glassbrick::{
-    Background, Camera, FrameReport, OpenSettings, Renderer, Volume, check_output, check_text_file,
-    report_json, write_picture, write_text_file,
+    Background, Camera, FrameReport, IngestSettings, OpenSettings, Renderer, Volume, check_output,
+    check_text_file, ingest, report_json, write_picture, write_text_file,
 };
 use glassbrick_phantom::Phantom;
 use serde_json::{Value, json};
@@ -27,9 +27,10 @@ const SEED: u64 = 1;
 
 /// The names that a demo writes in its folder; it touches no others.
 const VOLUME_FILE: &str = "phantom.nrrd";
+const STORE_FOLDER: &str = "phantom.zarr";
 const REPORT_FILE: &str = "report.json";
 
-/// Makes the body, the pictures and the report, and prints a table of them.
+/// Makes the body, its store, the pictures and the report, and prints a table of them.
 ///
 /// # Errors
 /// When a file cannot be written.
@@ -43,13 +44,15 @@ pub fn run(args: &DemoArgs, start: Instant) -> Result<()> {
     };
     let volume_path = folder.join(VOLUME_FILE);
     make(&phantom, &volume_path)?;
-    let volume = Volume::open(&volume_path, &OpenSettings::default(), |_, _| ())?;
+    let store_path = folder.join(STORE_FOLDER);
+    store(&volume_path, &store_path)?;
+    let volume = Volume::open(&store_path, &OpenSettings::default(), |_, _| ())?;
     let drawn = draw(&volume, folder, &pictures)?;
 
     let report_path = folder.join(REPORT_FILE);
     write_text_file(&report_path, &serde_json::to_string_pretty(&report(&phantom, &drawn, start))?)?;
     let [x, y, z] = phantom.extent;
-    let files = pictures.iter().map(|picture| picture.file).chain([VOLUME_FILE, REPORT_FILE]);
+    let files = pictures.iter().map(|picture| picture.file).chain([VOLUME_FILE, STORE_FOLDER, REPORT_FILE]);
     let files: Vec<String> = files.map(|file| folder.join(file).display().to_string()).collect();
     let (body, table) = (format!("A body of {x}×{y}×{z} voxels:"), table::table(&drawn));
     let files = format!("Wrote {}\nin {}.", files.join("\n      "), time(milliseconds(start)));
@@ -79,6 +82,14 @@ fn make(phantom: &Phantom, path: &Path) -> Result<()> {
     })
 }
 
+/// Makes a brick store of the body; one of an earlier demo is replaced.
+fn store(volume_path: &Path, store_path: &Path) -> Result<()> {
+    let progress = Progress::start("storing the body");
+    let settings = IngestSettings { replace: true, ..IngestSettings::default() };
+    ingest(volume_path, store_path, &settings, |done, total| progress.rate(done, total))?;
+    Ok(())
+}
+
 /// Draws and writes every picture.
 fn draw(volume: &Volume, folder: &Path, pictures: &[DemoPicture]) -> Result<Vec<(DemoPicture, FrameReport)>> {
     let progress = Progress::start("drawing");
@@ -102,7 +113,7 @@ fn report(phantom: &Phantom, drawn: &[(DemoPicture, FrameReport)], start: Instan
         .map(|(picture, report)| json!({ "file": picture.file, "shows": picture.shows, "report": report_json(report) }))
         .collect();
     json!({
-        "phantom": { "file": VOLUME_FILE, "extent": phantom.extent, "seed": phantom.seed },
+        "phantom": { "file": VOLUME_FILE, "store": STORE_FOLDER, "extent": phantom.extent, "seed": phantom.seed },
         "pictures": pictures,
         "time_ms": { "total": milliseconds(start) },
         "version": env!("CARGO_PKG_VERSION"),

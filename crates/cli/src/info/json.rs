@@ -34,10 +34,27 @@ pub fn json(info: &Info) -> Value {
             "total": milliseconds(info.times.total),
         },
     });
+    if let Some(store) = volume.store() {
+        told["store"] = json!({
+            "codec": store.codec.name(),
+            "source_format": store.source_format,
+            "levels": (0..store.levels())
+                .map(|level| json!({
+                    "extent": volume.bricks().grid(level).extent.to_array(),
+                    "bricks": volume.bricks().grid(level).len(),
+                }))
+                .collect::<Vec<Value>>(),
+        });
+    }
     if let Some(needs) = &info.needs {
         // An end that is not bounded is null.
         let bands: Vec<Value> = needs.bands.iter().map(|band| json!([band.low, band.high])).collect();
-        told["transfer_function"] = json!({ "bands": bands, "visible_voxel_fraction": needs.visible_voxels });
+        told["transfer_function"] = json!({
+            "bands": bands,
+            "visible_voxel_fraction": needs.visible_voxels,
+            "file_bytes": needs.file_bytes.round() as u64,
+            "load_seconds": needs.load_seconds,
+        });
     }
     told
 }

@@ -8,12 +8,17 @@ pub struct Needs {
     pub filtered_visible: usize,
     /// Of these, decoded.
     pub bytes: u64,
+    /// Of these, in files, before decoding; estimated.
+    pub file_bytes: f64,
+    /// How long loading them takes, with what is in the system's memory there already; estimated.
+    pub load_seconds: f64,
     /// The fraction of the volume's voxels that lie in a band, by the voxel-count tables.
     pub visible_voxels: f64,
 }
 
 impl Needs {
-    /// Finds the visible bricks by their ranges, and the visible voxels by their tables.
+    /// Finds the visible bricks by their ranges, and the visible voxels by their tables; loads a few bricks to measure
+    /// what all of them will take.
     ///
     /// # Errors
     /// When the voxels cannot be read.
@@ -29,8 +34,12 @@ impl Needs {
             fraction.min(1.0) * f64::from(table.voxels())
         };
         let voxels: f64 = visible.bricks.iter().map(|&brick| visible_voxels(brick)).sum();
+        let (file_bytes, seconds) = volume.measure_loading(&visible.bricks)?;
+        let loaded = visible.bricks.len() as f64;
         Ok(Self {
             bands,
+            file_bytes: loaded * file_bytes,
+            load_seconds: loaded * seconds / volume.threads() as f64,
             empty: visible.empty,
             filtered_visible: visible.bricks.len(),
             bytes: visible.bricks.len() as u64 * decoded_brick_bytes(volume),

@@ -2,7 +2,7 @@ use glassbrick::Band;
 
 use super::directions::patient_direction;
 use super::{BACKEND_AUTO, Info, Needs};
-use crate::figures::{bytes, count, number, percent};
+use crate::figures::{bytes, count, number, percent, time};
 use crate::terminal::one_line;
 
 /// Width of the column of names.
@@ -54,7 +54,15 @@ fn bricks_lines(info: &Info) -> Vec<Line> {
     let counts = list(grid.counts.to_array().map(f64::from), " × ");
     let (edge, halo) = (grid.layout.edge, grid.layout.halo);
     let bricks = format!("{} ({counts}) of {edge}³ voxels, halo {halo}", count(grid.len() as u64));
-    vec![("bricks", bricks), ("backend", format!("{}: {}", BACKEND_AUTO.0, BACKEND_AUTO.1))]
+    let mut lines = vec![("bricks", bricks)];
+    if let Some(store) = info.volume.store() {
+        let last = info.volume.bricks().grid(store.levels() - 1).extent.to_array().map(f64::from);
+        lines.push(("levels", format!("{}, the last of {} voxels", store.levels(), list(last, " × "))));
+        let codec = store.codec.name();
+        lines.push(("stored", format!("from {}, codec {codec}", one_line(&store.source_format))));
+    }
+    lines.push(("backend", format!("{}: {}", BACKEND_AUTO.0, BACKEND_AUTO.1)));
+    lines
 }
 
 fn needs_lines(needs: &Needs) -> Vec<Line> {
@@ -66,6 +74,14 @@ fn needs_lines(needs: &Needs) -> Vec<Line> {
         ("tf shows", if bands.is_empty() { "nothing".to_owned() } else { bands.join(", ") }),
         ("tf bricks", format!("{visible} visible ({fraction}), {} empty", count(needs.empty as u64))),
         ("tf bytes", format!("{} ({}) of bricks", count(needs.bytes), bytes(needs.bytes))),
+        (
+            "tf loading",
+            format!(
+                "{} from files, about {}",
+                bytes(needs.file_bytes.round() as u64),
+                time(needs.load_seconds * 1e3)
+            ),
+        ),
         ("tf voxels", format!("{} visible", percent(needs.visible_voxels))),
     ]
 }

@@ -2,6 +2,7 @@
 //! settings that they name read. Everything here is found out before the first voxel is.
 
 mod info;
+mod ingest;
 mod input;
 mod output;
 mod render;
@@ -10,6 +11,7 @@ mod transfer_function;
 mod viewpoint;
 
 pub use info::InfoJob;
+pub use ingest::IngestJob;
 pub use input::InputJob;
 pub use output::Output;
 pub use render::RenderJob;

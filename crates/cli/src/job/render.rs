@@ -21,6 +21,7 @@ pub struct RenderJob {
     pub settings: RenderSettings,
     pub nearly_empty: NearlyEmpty,
     pub level: LevelChoice,
+    pub allow_damaged: bool,
     pub repeat: usize,
     pub background: Background,
     pub output: Output,
@@ -48,6 +49,7 @@ impl RenderJob {
             settings: render_settings(args),
             nearly_empty: NearlyEmpty { alpha: args.alpha, beta: args.beta },
             level: args.level,
+            allow_damaged: args.allow_damaged,
             repeat: args.repeat as usize,
             background,
             warnings: idle_flags(args, output.keeps_alpha()),
@@ -64,6 +66,7 @@ impl RenderJob {
             settings: self.settings,
             nearly_empty: self.nearly_empty,
             level: self.level,
+            allow_damaged: self.allow_damaged,
             ..RenderRequest::new(transfer_function)
         }
     }

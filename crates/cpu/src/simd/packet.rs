@@ -124,7 +124,7 @@ mod tests {
     fn every_pixel_has_its_own_ray_at_the_pictures_edge_too() {
         let desc = VolumeDesc::new(UVec3::splat(20), StoredType::U8);
         let camera = Camera::framing(&desc, NamedView::Front);
-        let rays = FrameRays::new(&desc, &camera, UVec2::new(7, 6), 1.0).expect("sound");
+        let rays = FrameRays::new(&desc.level(0), &camera, UVec2::new(7, 6), 1.0).expect("sound");
         let rect = PixelRect { min: [0, 0], max: [7, 6] };
         let tile = PacketTile::new(&rays, rect, ());
         let places = (0..6).flat_map(|row| (0..7).map(move |column| (column, row)));
