@@ -54,7 +54,7 @@ impl StoreSource {
         let path = root.join(METADATA);
         let identity = FileIdentity::of(&path).map_err(|source| StoreError::reading(&path, source))?;
         let (store, mut bytes_read) = read_desc(root)?;
-        bytes_read += check_documents(root, &store, |damage| Err(damage))?;
+        bytes_read += check_documents(root, &store, Err)?;
         let levels = (0..store.levels())
             .map(|level| {
                 let grid = store.layout.level_grid(store.volume.extent, level);
