@@ -46,24 +46,50 @@ impl<'a> StoredBrick<'a> {
 }
 
 fn range_row<T: Element>(brick: &StoredBrick) -> Vec<u8> {
-    let numbers = [least_and_most::<T>(brick, 1), least_and_most::<T>(brick, 0)];
+    let (mut core, mut reach) = (LeastAndMost::<T>::NOTHING, LeastAndMost::NOTHING);
+    let rows_around = brick.core.y as usize + 2;
+    for (number, row) in brick.rows(1).enumerate() {
+        let (y, z) = (number % rows_around, number / rows_around);
+        let (inner, ends) = (T::BYTES..row.len() - T::BYTES, [0, row.len() - T::BYTES]);
+        let within = LeastAndMost::of(&row[inner]);
+        reach = ends.into_iter().fold(reach.and(within), |reach, end| {
+            let number = T::read(&row[end..end + T::BYTES]);
+            reach.and(LeastAndMost { least: number, most: number })
+        });
+        if (1..=brick.core.y as usize).contains(&y) && (1..=brick.core.z as usize).contains(&z) {
+            core = core.and(within);
+        }
+    }
     let mut row = vec![0; 4 * T::BYTES];
-    for (number, place) in numbers.into_iter().flatten().zip(row.chunks_exact_mut(T::BYTES)) {
+    let numbers = [reach.least, reach.most, core.least, core.most];
+    for (number, place) in numbers.into_iter().zip(row.chunks_exact_mut(T::BYTES)) {
         number.write(place);
     }
     row
 }
 
-fn least_and_most<T: Element>(brick: &StoredBrick, around: u32) -> [T; 2] {
-    let (mut least, mut most) = (T::ABOVE_ALL, T::BELOW_ALL);
-    for row in brick.rows(around) {
-        for stored in row.chunks_exact(T::BYTES) {
-            let number = T::read(stored);
-            least = if number < least { number } else { least };
-            most = if number > most { number } else { most };
+#[derive(Clone, Copy)]
+struct LeastAndMost<T> {
+    least: T,
+    most: T,
+}
+
+impl<T: Element> LeastAndMost<T> {
+    const NOTHING: Self = Self { least: T::ABOVE_ALL, most: T::BELOW_ALL };
+
+    fn of(row: &[u8]) -> Self {
+        row.chunks_exact(T::BYTES)
+            .map(T::read)
+            .fold(Self::NOTHING, |all, number| all.and(Self { least: number, most: number }))
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self {
+            least: if other.least < self.least { other.least } else { self.least },
+            most: if other.most > self.most { other.most } else { self.most },
         }
     }
-    [least, most]
 }
 
 /// A range as kept voxels have it.
