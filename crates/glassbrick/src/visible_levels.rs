@@ -7,8 +7,12 @@ use glassbrick_volume::{
     BakedTransferFunction, BrickSource, Camera, Mode, Skip, VisibleBricks, all_bricks, filtered_visible,
     without_nearly_empty,
 };
+use rayon::prelude::*;
 
 use crate::{Error, LevelChoice, RenderRequest, Volume};
+
+/// Bricks that a thread looks up in their tables before it takes more.
+const BRICKS_AT_ONCE: usize = 4096;
 
 /// What a transfer function can see of each level, found when the level is first drawn.
 pub struct VisibleLevels {
@@ -89,5 +93,17 @@ fn visible_bricks(
         return Ok(visible);
     }
     let tables = source.voxel_count_tables(level)?;
-    Ok(without_nearly_empty(visible, &tables, &bands, rescale, request.nearly_empty))
+    let parts: Vec<VisibleBricks> = visible
+        .bricks
+        .par_chunks(BRICKS_AT_ONCE)
+        .map(|bricks| {
+            let part = VisibleBricks { bricks: bricks.to_vec(), ..VisibleBricks::default() };
+            without_nearly_empty(part, &tables, &bands, rescale, request.nearly_empty)
+        })
+        .collect();
+    Ok(VisibleBricks {
+        empty: visible.empty,
+        nearly_empty: parts.iter().map(|part| part.nearly_empty).sum(),
+        bricks: parts.into_iter().flat_map(|part| part.bricks).collect(),
+    })
 }

@@ -59,13 +59,6 @@ impl Bins {
         let width = self.width();
         if width > 0.0 { (((stored - self.min) / width) as usize).min(VCT_BINS - 1) } else { 0 }
     }
-
-    /// Smallest and largest stored value that a bin can hold.
-    fn span(&self, bin: usize) -> [f64; 2] {
-        let width = self.width();
-        let [start, end] = [bin, bin + 1].map(|edge| self.min + edge as f64 * width);
-        if self.whole_numbers { [start.ceil(), end.ceil() - 1.0] } else { [start, end.min(self.max)] }
-    }
 }
 
 /// How a band cuts a brick's voxels: fractions of all its core voxels.
@@ -113,8 +106,22 @@ impl VoxelCountTable {
     pub fn fractions(&self, band: &Band, rescale: Rescale) -> BandFractions {
         let [low, high] = if rescale.slope < 0.0 { [band.high, band.low] } else { [band.low, band.high] }
             .map(|value| rescale.stored(value));
-        let before_high = self.voxels_up_to(|bin| self.bins.span(bin)[0] < high);
-        let up_to_low = self.voxels_up_to(|bin| self.bins.span(bin)[1] <= low);
+        let Bins { min, max, whole_numbers } = self.bins;
+        let width = self.bins.width();
+        let edge = |bin: usize| min + bin as f64 * width;
+        let [before_high, up_to_low] = if whole_numbers {
+            // Of whole numbers a bin holds those from its start, rounded up, to its end, rounded up, less one.
+            let (last_before_high, first_above_low) = (high.ceil() - 1.0, low.floor() + 1.0);
+            [
+                self.voxels_up_to(|bin| edge(bin) <= last_before_high),
+                self.voxels_up_to(|bin| edge(bin + 1) <= first_above_low),
+            ]
+        } else {
+            [
+                self.voxels_up_to(|bin| edge(bin) < high),
+                self.voxels_up_to(|bin| edge(bin + 1).min(max) <= low),
+            ]
+        };
         let all = self.voxels();
         // Under a negative slope, what is stored after the band is below it.
         let [not_above, below] =
@@ -123,14 +130,14 @@ impl VoxelCountTable {
         BandFractions { r1: fraction(not_above), r2: fraction(below) }
     }
 
-    /// Voxels up to the last bin that holds any and for which `is_before` is true.
+    /// Voxels up to the last bin for which `is_before` is true: it is for all bins before one for which it is.
     fn voxels_up_to(&self, is_before: impl Fn(usize) -> bool) -> u32 {
-        let last = (0..VCT_BINS).rev().find(|&bin| self.holds(bin) && is_before(bin));
-        last.map_or(0, |bin| self.cumulative[bin])
-    }
-
-    fn holds(&self, bin: usize) -> bool {
-        self.cumulative[bin] > if bin == 0 { 0 } else { self.cumulative[bin - 1] }
+        // Halving by powers of two has no branch that could be guessed wrongly, so that tables are fetched side by side.
+        let mut before = 0;
+        for step in [128, 64, 32, 16, 8, 4, 2, 1, 1] {
+            before += if is_before(before + step - 1) { step } else { 0 };
+        }
+        if before == 0 { 0 } else { self.cumulative[before - 1] }
     }
 }
 
