@@ -76,18 +76,23 @@ impl BrickFiles {
         Ok(Found::Stored)
     }
 
-    /// Bytes that a brick takes in its file.
+    /// Bytes that a brick takes in its file. `check_shard` is asked after each opening of a shard.
     ///
     /// # Errors
     /// When its shard cannot be read.
-    pub fn encoded_bytes(&self, id: BrickId) -> Result<u64, StoreError> {
-        Ok(self.shard(id, || Ok(()))?.index.place(place(id)).map_or(0, |[_, len]| len))
+    pub fn encoded_bytes(
+        &self,
+        id: BrickId,
+        check_shard: impl Fn() -> Result<(), StoreError>,
+    ) -> Result<u64, StoreError> {
+        Ok(self.shard(id, check_shard)?.index.place(place(id)).map_or(0, |[_, len]| len))
     }
 
-    /// Asks the system to bring a brick's bytes into memory.
-    pub fn will_need(&self, id: BrickId) {
+    /// Asks the system to bring a brick's bytes into memory. `check_shard` is asked after each opening of a shard, which
+    /// stays open for those who read.
+    pub fn will_need(&self, id: BrickId, check_shard: impl Fn() -> Result<(), StoreError>) {
         // Whoever reads the brick is told what is wrong with it.
-        if let Ok(shard) = self.shard(id, || Ok(()))
+        if let Ok(shard) = self.shard(id, check_shard)
             && let Some([offset, len]) = shard.index.place(place(id))
         {
             platform::will_need(&shard.file, offset, len);

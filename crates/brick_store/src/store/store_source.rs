@@ -35,14 +35,15 @@ struct Level {
     tables: Mutex<Option<Arc<Vec<VoxelCountTable>>>>,
 }
 
-/// Whether there is a Zarr group or array at a path, of whatever kind.
+/// Whether there is a folder at a path that is a Zarr group or array of whatever kind, or is named as one.
 pub fn is_zarr(path: &Path) -> bool {
     path.join(METADATA).is_file()
+        || (path.extension().is_some_and(|ending| ending == "zarr") && path.is_dir())
 }
 
 /// Whether there is a brick store at a path, sound or not.
 pub fn is_store(path: &Path) -> bool {
-    !matches!(read_desc(path), Err(StoreError::NotAStore { .. } | StoreError::Read { .. })) && is_zarr(path)
+    !matches!(read_desc(path), Err(StoreError::NotAStore { .. } | StoreError::Read { .. }))
 }
 
 impl StoreSource {
@@ -52,8 +53,9 @@ impl StoreSource {
     /// When it is no brick store, of another version, or damaged.
     pub fn open(root: &Path) -> Result<Self, StoreError> {
         let path = root.join(METADATA);
-        let identity = FileIdentity::of(&path).map_err(|source| StoreError::reading(&path, source))?;
+        let identity = FileIdentity::of(&path);
         let (store, mut bytes_read) = read_desc(root)?;
+        let identity = identity.map_err(|source| StoreError::reading(&path, source))?;
         bytes_read += check_documents(root, &store, Err)?;
         let levels = (0..store.levels())
             .map(|level| {
@@ -85,7 +87,7 @@ impl StoreSource {
     /// # Errors
     /// When its shard cannot be read.
     pub fn encoded_bytes(&self, id: BrickId) -> Result<u64, StoreError> {
-        self.files.encoded_bytes(id)
+        self.files.encoded_bytes(id, || self.check_it_is_the_same())
     }
 
     /// Fills `voxels` with a brick's stored voxels, little-endian; `encoded` is room to work in.
@@ -214,7 +216,7 @@ impl BrickSource for StoreSource {
     }
 
     fn will_need(&self, bricks: &[BrickId]) {
-        bricks.iter().for_each(|&id| self.files.will_need(id));
+        bricks.iter().for_each(|&id| self.files.will_need(id, || self.check_it_is_the_same()));
     }
 
     /// Bricks are read anew each time, and nothing was promised of what becomes of them.
