@@ -124,7 +124,7 @@ pub struct TableRows {
     pub bytes_read: u64,
 }
 
-/// Reads a whole table. Memory is taken as files are found, whatever the grid claims.
+/// Reads a whole table. Memory is taken once all its files are found, whatever the grid claims.
 ///
 /// # Errors
 /// When a chunk is missing or damaged.
@@ -132,8 +132,13 @@ pub fn read_table(root: &Path, store: &StoreDesc, level: u32, table: Table) -> R
     let grid = store.layout.level_grid(store.volume.extent, level);
     let chunks = TableChunks::new(&grid);
     let row_bytes = table.row_bytes(store.volume.stored_type);
+    let places = || (0..chunks.layers()).flat_map(|layer| chunks.layer(layer));
+    for chunk in places() {
+        let path = root.join(chunk_path(level, table, chunk));
+        path.metadata().map_err(|source| StoreError::reading(&path, source))?;
+    }
     let (mut rows, mut bytes_read) = (Vec::new(), 0);
-    for chunk in (0..chunks.layers()).flat_map(|layer| chunks.layer(layer)) {
+    for chunk in places() {
         let read = read_chunk(root, store, level, table, chunk)?;
         bytes_read += read.bytes_read;
         for (brick, row) in chunks.rows(chunk) {
