@@ -18,6 +18,9 @@ pub use transfer_function::{BakedTransferFunction, ControlPoint, Entry};
 pub struct ReferenceScene<'a> {
     /// Voxels along x, y and z.
     pub extent: [usize; 3],
+    /// Where the volume's box ends, in voxels; at the faces of its outermost voxels where nothing is said. A level of
+    /// a volume ends where the volume does, which may be within its last voxels.
+    pub box_end: Option<[f64; 3]>,
     /// Stored values, x fastest.
     pub voxels: &'a [f64],
     /// Distance of neighbouring voxel centres along each axis, in mm.
@@ -128,6 +131,7 @@ impl<'a> March<'a> {
                 intercept: scene.intercept,
                 voxel_from_world: world_from_voxel.inverse(),
                 origin: DVec3::from_array(scene.origin),
+                box_end: DVec3::from_array(scene.box_end.unwrap_or(scene.extent.map(|n| n as f64 - 0.5))),
             },
             transfer_function: BakedTransferFunction::new(
                 &scene.points,

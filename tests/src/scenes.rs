@@ -5,6 +5,7 @@
 
 mod cameras;
 mod families;
+mod levels;
 mod transfer_functions;
 mod volumes;
 
@@ -13,6 +14,7 @@ use std::sync::OnceLock;
 use crate::reference::{
     Camera, ControlPoint, Mode, Phong, Projection, ReferenceScene, nearest_sample_to_box,
 };
+pub use levels::level_scenes;
 pub use transfer_functions::STEEPEST_RAMP;
 pub use volumes::{Geometry, Volume};
 
@@ -47,6 +49,7 @@ impl Scene {
         let volume = &self.volume;
         ReferenceScene {
             extent: volume.extent,
+            box_end: None,
             voxels: &volume.voxels,
             spacing: volume.geometry.spacing,
             origin: volume.geometry.origin,

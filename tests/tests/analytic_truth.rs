@@ -33,6 +33,7 @@ fn scene<'a>(
 ) -> ReferenceScene<'a> {
     ReferenceScene {
         extent,
+        box_end: None,
         voxels,
         spacing: [1.0; 3],
         origin: [0.0; 3],

@@ -1,7 +1,7 @@
 //! What the commands do with sound input: what they print, draw, embed and report.
 
 mod information;
-mod pictures;
+pub mod pictures;
 mod reports;
 mod turns;
 

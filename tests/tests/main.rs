@@ -9,3 +9,4 @@ mod fair_scenes;
 mod properties;
 mod real_data;
 mod robustness;
+mod store;

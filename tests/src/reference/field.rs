@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 
-/// How far the volume reaches beyond its outermost voxels' faces, in voxels.
+/// How far the volume reaches beyond its box, in voxels.
 const MARGIN: f64 = 1.0 / 1024.0;
 
 /// The volume as a function of position: voxel coordinates to values.
@@ -15,13 +15,14 @@ pub struct Field<'a> {
     pub voxel_from_world: DMat3,
     /// World position of the centre of voxel (0, 0, 0), in mm.
     pub origin: DVec3,
+    /// Where the volume's box ends, in voxels.
+    pub box_end: DVec3,
 }
 
 impl Field<'_> {
     /// The box that the volume fills; the high end is not part of it.
     fn box_ends(&self) -> [DVec3; 2] {
-        let extent = DVec3::from_array(self.extent.map(|n| n as f64));
-        [DVec3::splat(-0.5 - MARGIN), extent - 0.5 + MARGIN]
+        [DVec3::splat(-0.5 - MARGIN), self.box_end + MARGIN]
     }
 
     /// Whether a position is in the volume.

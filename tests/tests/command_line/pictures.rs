@@ -34,13 +34,13 @@ fn png(path: &Path) -> Png {
     }
 }
 
-struct Exr {
+pub struct Exr {
     /// R, G, B, A and Z.
-    channels: [Vec<f32>; 5],
+    pub channels: [Vec<f32>; 5],
     report: Value,
 }
 
-fn exr(path: &Path) -> Exr {
+pub fn exr(path: &Path) -> Exr {
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
