@@ -31,7 +31,8 @@ fn built() -> PathBuf {
     cargo.args(["build", "--quiet", "--message-format=json-render-diagnostics", "--profile", &profile]);
     cargo.args(["--package", "glassbrick-cli", "--package", "glassbrick-tests"]);
     cargo.args(["--bin", "glassbrick", "--test", "main"]);
-    if above.join("CACHEDIR.TAG").exists() {
+    // Cargo marks a target folder that it makes, and keeps what it knows of rustc in any.
+    if ["CACHEDIR.TAG", ".rustc_info.json"].iter().any(|name| above.join(name).exists()) {
         cargo.arg("--target-dir").arg(above);
     } else {
         let target_folder = above.parent().expect("a triple lies in the target folder");

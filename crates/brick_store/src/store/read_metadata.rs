@@ -17,14 +17,19 @@ const MOST_METADATA_BYTES: u64 = 16 << 20;
 /// When it is no brick store, of another version, or damaged.
 pub fn read_desc(root: &Path) -> Result<(StoreDesc, u64), StoreError> {
     let path = root.join(METADATA);
+    let not_a_store = |what: &str| StoreError::NotAStore { path: root.to_owned(), what: what.to_owned() };
+    if !root.metadata().map_err(|source| StoreError::Read { path: root.to_owned(), source })?.is_dir() {
+        return Err(not_a_store("it is a file; glassbrick ingest makes a store of a volume"));
+    }
+    if !path.exists() {
+        return Err(not_a_store("it has no zarr.json; make it again if it was one"));
+    }
     let (mut group, bytes_read) = read_json(&path)?;
     match group["attributes"].get_mut("glassbrick").map(Value::take) {
         Some(attributes) => Ok((StoreDesc::from_attributes(attributes, &path)?, bytes_read)),
-        None => {
-            let what =
-                "its zarr.json is another program's; give a volume, or a store that glassbrick ingest made";
-            Err(StoreError::NotAStore { path: root.to_owned(), what: what.to_owned() })
-        }
+        None => Err(not_a_store(
+            "its zarr.json is another program's; give a volume, or a store that glassbrick ingest made",
+        )),
     }
 }
 
