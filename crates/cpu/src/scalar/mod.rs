@@ -7,7 +7,7 @@ mod projector;
 mod sampler;
 
 use glam::{Mat3, Vec3};
-use glassbrick_volume::{BrickSource, FrameRays, Mode, PixelRect, Ray, ReadError, Skip, Voxels};
+use glassbrick_volume::{BrickSource, FrameRays, Mode, PixelRect, Ray, ReadError, Skip, VolumeDesc, Voxels};
 
 use crate::executor::{CpuFrame, CpuScene, draw_with};
 use crate::kernel::{BrickView, Kernel, overlap};
@@ -25,7 +25,7 @@ pub fn draw(source: &dyn BrickSource, scene: &CpuScene) -> Result<CpuFrame, Read
         Mode::Dvr => {
             let light = scene.settings.shading.map(|phong| Headlight {
                 phong,
-                normal_from_gradient: normal_from_gradient(desc.world_from_voxel().matrix3),
+                normal_from_gradient: normal_from_gradient(desc, scene.plan.level),
             });
             let projector = Dvr { look_up, opacity_cutoff: scene.settings.effective_cutoff(), light };
             draw_with(&Scalar { projector, skip, sample_count }, source, scene)
@@ -40,9 +40,9 @@ pub fn draw(source: &dyn BrickSource, scene: &CpuScene) -> Result<CpuFrame, Read
     }
 }
 
-/// The inverse transpose, by which surfaces' normals go from voxel to world space.
-pub fn normal_from_gradient(world_from_voxel: glam::DMat3) -> Mat3 {
-    world_from_voxel.inverse().transpose().as_mat3()
+/// The inverse transpose, by which surfaces' normals go from a level's voxels to world space.
+pub fn normal_from_gradient(desc: &VolumeDesc, level: u32) -> Mat3 {
+    desc.level(level).desc.world_from_voxel().matrix3.inverse().transpose().as_mat3()
 }
 
 /// One way to form pixels.

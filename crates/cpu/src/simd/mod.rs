@@ -66,7 +66,7 @@ pub fn draw(
         Mode::Dvr => {
             let light = settings.shading.map(|phong| LaneHeadlight {
                 phong,
-                normal_from_gradient: normal_from_gradient(desc.world_from_voxel().matrix3),
+                normal_from_gradient: normal_from_gradient(desc, scene.plan.level),
             });
             let projection = LaneDvr {
                 look_up: LaneLookUp::new(baked, rescale),
