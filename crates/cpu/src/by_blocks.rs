@@ -4,11 +4,12 @@
 use std::cmp::Ordering;
 use std::sync::{Arc, OnceLock};
 
-use glassbrick_volume::{Brick, PixelRect, PlannedBrick, ReadError};
+use glassbrick_volume::{Brick, Frame, FrameRays, PixelRect, PlannedBrick, ReadError};
 use rayon::prelude::*;
 
-use crate::executor::Picture;
-use crate::kernel::{Kernel, common};
+use crate::executor::{CpuFrame, Picture};
+use crate::kernel::{Kernel, NO_SAMPLE, common, overlap};
+use crate::tiles::TILE;
 
 /// Pixels along a block's side: a whole number of tiles.
 const BLOCK: u32 = 32;
@@ -16,22 +17,28 @@ const BLOCK: u32 = 32;
 /// How many of a block's bricks are hinted at while one is loaded.
 const READ_AHEAD: usize = 2;
 
-/// Draws all blocks; returns how many bricks were loaded.
-pub fn draw<K: Kernel>(picture: &Picture<K>) -> Result<usize, ReadError> {
-    let bricks = ordered(picture);
+/// Draws all blocks.
+pub fn draw<K: Kernel>(kernel: &K, picture: Picture) -> Result<CpuFrame, ReadError> {
+    let rays = picture.scene.rays;
+    let bricks = ordered(kernel, &picture);
     let held: Vec<OnceLock<Option<Arc<Brick>>>> = bricks.iter().map(|_| OnceLock::new()).collect();
     let prepared: Vec<OnceLock<Option<K::Prepared<'_>>>> = bricks.iter().map(|_| OnceLock::new()).collect();
-    blocks(picture.scene.rays.size.to_array(), &bricks).into_par_iter().try_for_each(|block| {
-        for (step, &(place, footprint)) in block.iter().enumerate() {
+    let mut frame = Frame::transparent(rays.size.x, rays.size.y);
+    let blocks = blocks(&mut frame, &bricks);
+    // One by one: some blocks take long, and most take no time.
+    blocks.into_par_iter().with_max_len(1).try_for_each(|mut block| {
+        let rects: Vec<PixelRect> = block.tiles().collect();
+        let mut tiles: Vec<K::Tile> = rects.iter().map(|&rect| kernel.start(rays, rect)).collect();
+        for (step, &(place, footprint)) in block.bricks.iter().enumerate() {
             let brick = PlannedBrick { footprint, ..*bricks[place] };
             // A brick that is at hand costs no more to try than to look at.
-            if held[place].get().is_none() && picture.is_hidden(&brick) {
+            if held[place].get().is_none() && picture.is_hidden(kernel, &brick, tiles.iter()) {
                 continue;
             }
             let voxels = match held[place].get() {
                 Some(voxels) => voxels,
                 None => {
-                    let coming = block[step + 1..].iter().take(READ_AHEAD).map(|&(place, _)| place);
+                    let coming = block.bricks[step + 1..].iter().take(READ_AHEAD).map(|&(place, _)| place);
                     picture.will_need(
                         coming.filter(|&place| held[place].get().is_none()).map(|place| bricks[place]),
                     );
@@ -40,23 +47,28 @@ pub fn draw<K: Kernel>(picture: &Picture<K>) -> Result<usize, ReadError> {
                 }
             };
             let Some(voxels) = voxels else { continue };
-            let prepared = prepared[place].get_or_init(|| picture.prepare(bricks[place], voxels));
+            let prepared =
+                prepared[place].get_or_init(|| kernel.prepare(picture.view(bricks[place], voxels)));
             if let Some(prepared) = prepared {
-                let tiles = picture.tiles.in_rect(&footprint);
-                let samples = tiles.map(|mut tile| picture.kernel.add_brick(&mut tile, prepared)).sum();
-                picture.count(&brick, samples);
+                let met = tiles.iter_mut().zip(&rects).filter(|(_, rect)| overlap(rect, &footprint));
+                picture.count(&brick, met.map(|(tile, _)| kernel.add_brick(tile, prepared)).sum());
             }
+        }
+        for (tile, rect) in tiles.iter().zip(&rects) {
+            block.finish(kernel, rays, rect, tile);
         }
         Ok::<(), ReadError>(())
     })?;
-    Ok(held.iter().filter(|brick| brick.get().is_some()).count())
+    let loaded = held.iter().filter(|brick| brick.get().is_some()).count();
+    drop(prepared);
+    Ok(picture.finish(frame, loaded))
 }
 
 /// The planned bricks in the order in which rays go through them.
-fn ordered<'a, K: Kernel>(picture: &Picture<'a, K>) -> Vec<&'a PlannedBrick> {
+fn ordered<'a, K: Kernel>(kernel: &K, picture: &Picture<'a>) -> Vec<&'a PlannedBrick> {
     let mut bricks: Vec<&PlannedBrick> =
         picture.scene.plan.layers.iter().flat_map(|layer| &layer.bricks).collect();
-    let rank = |brick: &PlannedBrick| picture.kernel.rank(picture.ranges[brick.index as usize].reach);
+    let rank = |brick: &PlannedBrick| kernel.rank(picture.ranges[brick.index as usize].reach);
     // Bricks without a rank stay as they are: front to back.
     bricks.sort_by(|a, b| match (rank(a), rank(b)) {
         (Some(a), Some(b)) => b.total_cmp(&a),
@@ -65,22 +77,73 @@ fn ordered<'a, K: Kernel>(picture: &Picture<'a, K>) -> Vec<&'a PlannedBrick> {
     bricks
 }
 
-/// Of each block, the bricks that its pixels can meet, by place in `bricks`, with the pixels that can.
-fn blocks(size: [u32; 2], bricks: &[&PlannedBrick]) -> Vec<Vec<(usize, PixelRect)>> {
+/// A square of the picture.
+struct Block<'a> {
+    rect: PixelRect,
+    /// The bricks that its pixels can meet, by their place among those planned, with the pixels that can.
+    bricks: Vec<(usize, PixelRect)>,
+    /// Its pixels and their depths, row by row.
+    rows: Vec<(&'a mut [[f32; 4]], &'a mut [f32])>,
+}
+
+/// The blocks that may show something.
+fn blocks<'a>(frame: &'a mut Frame, bricks: &[&PlannedBrick]) -> Vec<Block<'a>> {
+    let size = [frame.width, frame.height];
     let [columns, rows] = size.map(|pixels| pixels.div_ceil(BLOCK));
-    let mut blocks = vec![Vec::new(); (columns * rows) as usize];
+    let corners = (0..rows).flat_map(|row| (0..columns).map(move |column| [column * BLOCK, row * BLOCK]));
+    let mut blocks: Vec<Block> = corners
+        .map(|min| {
+            let max = [0, 1].map(|axis| (min[axis] + BLOCK).min(size[axis]));
+            Block { rect: PixelRect { min, max }, bricks: Vec::new(), rows: Vec::new() }
+        })
+        .collect();
     for (place, brick) in bricks.iter().enumerate() {
         let [across, down] =
             [0, 1].map(|axis| brick.footprint.min[axis] / BLOCK..brick.footprint.max[axis].div_ceil(BLOCK));
         for row in down {
-            for column in across.clone() {
-                let min = [column * BLOCK, row * BLOCK];
-                let block = PixelRect { min, max: min.map(|first| first + BLOCK) };
-                let met =
-                    common(&block, &brick.footprint).expect("a footprint meets the blocks it was cut into");
-                blocks[(row * columns + column) as usize].push((place, met));
+            for block in across.clone().map(|column| (row * columns + column) as usize) {
+                let met = common(&blocks[block].rect, &brick.footprint)
+                    .expect("a footprint meets the blocks it was cut into");
+                blocks[block].bricks.push((place, met));
             }
         }
     }
+    let width = frame.width as usize;
+    let rows = frame.rgba.chunks_mut(width).zip(frame.depth_mm.chunks_mut(width)).enumerate();
+    for (row, (rgba, depth_mm)) in rows {
+        let first = row / BLOCK as usize * columns as usize;
+        let spans = rgba.chunks_mut(BLOCK as usize).zip(depth_mm.chunks_mut(BLOCK as usize));
+        for (block, span) in blocks[first..].iter_mut().zip(spans) {
+            block.rows.push(span);
+        }
+    }
+    blocks.retain(|block| !block.bricks.is_empty());
     blocks
+}
+
+impl Block<'_> {
+    /// The tiles that the block consists of.
+    fn tiles(&self) -> impl Iterator<Item = PixelRect> + use<> {
+        let PixelRect { min, max } = self.rect;
+        let corners = move |axis: usize| (min[axis]..max[axis]).step_by(TILE as usize);
+        corners(1).flat_map(move |row| corners(0).map(move |column| [column, row])).map(move |first| {
+            PixelRect { min: first, max: [0, 1].map(|axis| (first[axis] + TILE).min(max[axis])) }
+        })
+    }
+
+    /// Puts what a tile has gathered into the picture.
+    fn finish<K: Kernel>(&mut self, kernel: &K, rays: &FrameRays, rect: &PixelRect, tile: &K::Tile) {
+        let [left, top] = [0, 1].map(|axis| rect.min[axis] - self.rect.min[axis]);
+        let [width, height] = [0, 1].map(|axis| rect.max[axis] - rect.min[axis]);
+        let mut pixels =
+            (top..top + height).flat_map(|row| (left..left + width).map(move |column| (column, row)));
+        kernel.finish(tile, |pixel, number| {
+            let (column, row) = pixels.next().expect("a tile hands out as many pixels as it has");
+            let (rgba, depth_mm) = &mut self.rows[row as usize];
+            rgba[column as usize] = pixel;
+            if number != NO_SAMPLE {
+                depth_mm[column as usize] = rays.depth_mm(number) as f32;
+            }
+        });
+    }
 }

@@ -5,33 +5,36 @@ use std::ops::Range;
 use glassbrick_volume::{PlannedBrick, ReadError};
 use rayon::prelude::*;
 
-use crate::executor::Picture;
+use crate::executor::{CpuFrame, Picture};
 use crate::kernel::Kernel;
 use crate::tiles::Tiles;
 
-/// Draws all layers; returns how many bricks were loaded.
-pub fn draw<K: Kernel>(picture: &Picture<K>) -> Result<usize, ReadError> {
+/// Draws all layers.
+pub fn draw<K: Kernel>(kernel: &K, picture: Picture) -> Result<CpuFrame, ReadError> {
+    let tiles = Tiles::new(kernel, picture.scene.rays);
     let mut loaded = 0;
     let layers = &picture.scene.plan.layers;
     for (number, layer) in layers.iter().enumerate() {
-        let open: Vec<&PlannedBrick> =
-            layer.bricks.par_iter().filter(|brick| !picture.is_hidden(brick)).collect();
+        let is_open =
+            |brick: &&PlannedBrick| !picture.is_hidden(kernel, brick, tiles.in_rect(&brick.footprint));
+        let open: Vec<&PlannedBrick> = layer.bricks.par_iter().filter(is_open).collect();
         loaded += open.len();
         if let Some(next) = layers.get(number + 1) {
             // Some of them will be hidden by this layer; they are hinted at, and then not read.
-            picture.will_need(next.bricks.iter().filter(|brick| !picture.is_hidden(brick)));
+            picture.will_need(next.bricks.iter().filter(is_open));
         }
         shares::<K>(&open).into_par_iter().try_for_each(|share| {
             let Some(brick) = picture.load(share.brick)? else { return Ok(()) };
-            if let Some(prepared) = picture.prepare(share.brick, &brick) {
-                let tiles = picture.tiles.in_rows(share.tile_rows, &share.brick.footprint);
-                let samples = tiles.map(|mut tile| picture.kernel.add_brick(&mut tile, &prepared)).sum();
+            if let Some(prepared) = kernel.prepare(picture.view(share.brick, &brick)) {
+                let tiles = tiles.in_rows(share.tile_rows, &share.brick.footprint);
+                let samples = tiles.map(|mut tile| kernel.add_brick(&mut tile, &prepared)).sum();
                 picture.count(share.brick, samples);
             }
             Ok::<(), ReadError>(())
         })?;
     }
-    Ok(loaded)
+    let frame = tiles.finish(kernel, picture.scene.rays);
+    Ok(picture.finish(frame, loaded))
 }
 
 /// Rows of tiles of a brick's footprint, to be drawn by one thread.

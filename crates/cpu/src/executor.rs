@@ -1,4 +1,5 @@
 use std::collections::BTreeMap;
+use std::ops::Deref;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 
@@ -9,7 +10,6 @@ use glassbrick_volume::{
 };
 
 use crate::kernel::{BrickView, Kernel};
-use crate::tiles::Tiles;
 use crate::{by_blocks, by_layers};
 
 /// What is to be drawn.
@@ -43,57 +43,51 @@ pub fn draw_with<K: Kernel>(
     source: &dyn BrickSource,
     scene: &CpuScene,
 ) -> Result<CpuFrame, ReadError> {
-    let picture = Picture::new(kernel, source, scene);
-    let loaded = if source.can_hold(scene.plan.bricks()) {
-        by_blocks::draw(&picture)?
-    } else {
-        by_layers::draw(&picture)?
-    };
-    Ok(CpuFrame {
-        occluded: scene.plan.bricks() - loaded,
-        rendered: picture.is_rendered.iter().filter(|flag| flag.load(Ordering::Relaxed)).count(),
-        samples: picture.samples.into_inner(),
-        damaged: picture.damaged.into_inner().expect("nothing panics while it is held"),
-        frame: picture.tiles.finish(kernel, scene.rays),
-    })
+    let picture = Picture::new(source, scene);
+    if picture.can_be_held() { by_blocks::draw(kernel, picture) } else { by_layers::draw(kernel, picture) }
 }
 
 /// A picture under way.
-pub struct Picture<'a, K: Kernel> {
-    pub kernel: &'a K,
+pub struct Picture<'a> {
     pub scene: &'a CpuScene<'a>,
     pub ranges: &'a [BrickRange],
-    pub tiles: Tiles<K::Tile>,
+    pub grid: BrickGrid,
     source: &'a dyn BrickSource,
-    grid: BrickGrid,
     samples: AtomicU64,
     /// By place in the grid.
     is_rendered: Vec<AtomicBool>,
     damaged: Mutex<BTreeMap<u32, String>>,
 }
 
-impl<'a, K: Kernel> Picture<'a, K> {
-    fn new(kernel: &'a K, source: &'a dyn BrickSource, scene: &'a CpuScene<'a>) -> Self {
+impl<'a> Picture<'a> {
+    pub fn new(source: &'a dyn BrickSource, scene: &'a CpuScene<'a>) -> Self {
         let grid = source.grid(scene.plan.level);
         Self {
-            kernel,
             scene,
             ranges: source.ranges(scene.plan.level),
-            tiles: Tiles::new(kernel, scene.rays),
-            source,
             grid,
+            source,
             samples: AtomicU64::new(0),
             is_rendered: (0..grid.len()).map(|_| AtomicBool::new(false)).collect(),
             damaged: Mutex::default(),
         }
     }
 
-    /// Whether nothing in a brick can change the part of the picture that its footprint names.
-    pub fn is_hidden(&self, brick: &PlannedBrick) -> bool {
+    /// Whether memory holds all bricks of the frame at once.
+    pub fn can_be_held(&self) -> bool {
+        self.source.can_hold(self.scene.plan.bricks())
+    }
+
+    /// Whether nothing in a brick can change the pixels of some tiles that its footprint names.
+    pub fn is_hidden<K: Kernel>(
+        &self,
+        kernel: &K,
+        brick: &PlannedBrick,
+        mut tiles: impl Iterator<Item = impl Deref<Target = K::Tile>>,
+    ) -> bool {
         let reach = self.ranges[brick.index as usize].reach;
-        let mut tiles = self.tiles.in_rect(&brick.footprint);
         self.scene.settings.skip == Skip::All
-            && tiles.all(|tile| self.kernel.is_unchanged_by(&tile, &brick.footprint, reach))
+            && tiles.all(|tile| kernel.is_unchanged_by(&tile, &brick.footprint, reach))
     }
 
     /// The voxels of a planned brick; nothing of a damaged one that may be left out.
@@ -120,17 +114,41 @@ impl<'a, K: Kernel> Picture<'a, K> {
         BrickId { level: self.scene.plan.level, x, y, z }
     }
 
-    /// What the kernel makes of a brick; nothing where it holds nothing to draw.
-    pub fn prepare<'b>(&self, planned: &PlannedBrick, brick: &'b Brick) -> Option<K::Prepared<'b>> {
-        let range = &self.ranges[planned.index as usize];
-        self.kernel.prepare(BrickView::new(brick, planned, &self.grid, range))
+    /// A brick in its place in the frame.
+    pub fn view<'b>(&self, planned: &PlannedBrick, brick: &'b Brick) -> BrickView<'b> {
+        BrickView::new(brick, planned, &self.grid, &self.ranges[planned.index as usize])
     }
 
     /// Takes note of samples that were evaluated in a brick.
     pub fn count(&self, brick: &PlannedBrick, samples: u64) {
         if samples > 0 {
-            self.samples.fetch_add(samples, Ordering::Relaxed);
-            self.is_rendered[brick.index as usize].store(true, Ordering::Relaxed);
+            self.add_samples(samples);
+            self.is_rendered_if(brick, true);
+        }
+    }
+
+    /// Takes note of samples that were evaluated.
+    pub fn add_samples(&self, samples: u64) {
+        self.samples.fetch_add(samples, Ordering::Relaxed);
+    }
+
+    /// Takes note of whether a sample of a brick was evaluated.
+    pub fn is_rendered_if(&self, brick: &PlannedBrick, is_rendered: bool) {
+        let flag = &self.is_rendered[brick.index as usize];
+        // Looked at first: many threads write the same.
+        if is_rendered && !flag.load(Ordering::Relaxed) {
+            flag.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// The finished frame, for which so many of the planned bricks were loaded.
+    pub fn finish(self, frame: Frame, loaded: usize) -> CpuFrame {
+        CpuFrame {
+            occluded: self.scene.plan.bricks() - loaded,
+            rendered: self.is_rendered.iter().filter(|flag| flag.load(Ordering::Relaxed)).count(),
+            samples: self.samples.into_inner(),
+            damaged: self.damaged.into_inner().expect("nothing panics while it is held"),
+            frame,
         }
     }
 }

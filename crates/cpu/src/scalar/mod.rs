@@ -11,7 +11,7 @@ use glassbrick_volume::{BrickSource, FrameRays, Mode, PixelRect, Ray, ReadError,
 
 use crate::executor::{CpuFrame, CpuScene, draw_with};
 use crate::kernel::{BrickView, Kernel, overlap};
-use interval::samples_in_box;
+pub use interval::samples_in_box;
 pub use look_up::LookUp;
 use projector::{Dvr, Extremum, Headlight, Mean, Projector};
 use sampler::{Sampler, Voxel};

@@ -2,7 +2,7 @@
 
 use std::arch::x86_64::*;
 
-use super::lanes::Lanes;
+use super::lanes::{Lanes, RowLanes};
 
 /// Sixteen lanes.
 #[derive(Clone, Copy)]
@@ -131,5 +131,61 @@ unsafe impl Lanes for Avx512 {
     unsafe fn gather(base: *const f32, indices: __m512i) -> __m512 {
         // SAFETY: the caller promises that each index lies in the array.
         unsafe { _mm512_i32gather_ps::<4>(indices, base) }
+    }
+
+    /// Loads whole entries and transposes them: fewer loads than sixteen lanes gathered eight times.
+    #[inline(always)]
+    unsafe fn between(table: *const [f32; 4], entries: __m512i, fraction: __m512) -> [__m512; 4] {
+        // SAFETY: the caller promises that each entry and the next lie in the table; the rest touches no memory but its
+        // own.
+        unsafe {
+            let mut at = [0i32; 16];
+            _mm512_storeu_epi32(at.as_mut_ptr(), entries);
+            // Of a register's four quarters, the n-th holds the entry of lane 4·n + `first`.
+            macro_rules! mixed {
+                ($first:literal) => {{
+                    let quarter = |place: i32| _mm_loadu_ps(table.offset(place as isize).cast());
+                    let (at0, at1, at2, at3) = (at[$first], at[$first + 4], at[$first + 8], at[$first + 12]);
+                    let a = _mm512_broadcast_f32x4(quarter(at0));
+                    let a = _mm512_mask_broadcast_f32x4(a, 0x00F0, quarter(at1));
+                    let a = _mm512_mask_broadcast_f32x4(a, 0x0F00, quarter(at2));
+                    let a = _mm512_mask_broadcast_f32x4(a, 0xF000, quarter(at3));
+                    let b = _mm512_broadcast_f32x4(quarter(at0 + 1));
+                    let b = _mm512_mask_broadcast_f32x4(b, 0x00F0, quarter(at1 + 1));
+                    let b = _mm512_mask_broadcast_f32x4(b, 0x0F00, quarter(at2 + 1));
+                    let b = _mm512_mask_broadcast_f32x4(b, 0xF000, quarter(at3 + 1));
+                    let t = _mm512_permute_ps::<{ $first * 0x55 }>(fraction);
+                    _mm512_fmadd_ps(t, _mm512_sub_ps(b, a), a)
+                }};
+            }
+            let (v0, v1, v2, v3) = (mixed!(0), mixed!(1), mixed!(2), mixed!(3));
+            let (low01, high01) = (_mm512_unpacklo_ps(v0, v1), _mm512_unpackhi_ps(v0, v1));
+            let (low23, high23) = (_mm512_unpacklo_ps(v2, v3), _mm512_unpackhi_ps(v2, v3));
+            [
+                _mm512_shuffle_ps::<0x44>(low01, low23),
+                _mm512_shuffle_ps::<0xEE>(low01, low23),
+                _mm512_shuffle_ps::<0x44>(high01, high23),
+                _mm512_shuffle_ps::<0xEE>(high01, high23),
+            ]
+        }
+    }
+}
+
+// SAFETY: as above.
+unsafe impl RowLanes for Avx512 {
+    #[inline(always)]
+    fn bits_at(bits: u8, places: __m512i) -> __mmask16 {
+        // SAFETY: `Avx512` is used only where AVX-512F was detected; the intrinsics touch no memory.
+        unsafe {
+            let bit = _mm512_sllv_epi32(_mm512_set1_epi32(1), places);
+            _mm512_test_epi32_mask(bit, _mm512_set1_epi32(i32::from(bits)))
+        }
+    }
+
+    #[inline(always)]
+    fn pick(row: &[f32], places: __m512i) -> __m512 {
+        let some = ((1u32 << row.len().min(16)) - 1) as __mmask16;
+        // SAFETY: as above; the load reads no further than the row.
+        unsafe { _mm512_permutexvar_ps(places, _mm512_maskz_loadu_ps(some, row.as_ptr())) }
     }
 }

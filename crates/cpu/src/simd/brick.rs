@@ -3,7 +3,8 @@ use glassbrick_volume::{BrickCells, CELL_EDGE_LOG2};
 
 use super::lanes::Lanes;
 use super::occupancy::Occupancy;
-use super::packet::{Column, Packet};
+use super::packet::{Column, LaneSteps, Packet};
+use super::projection::Slopes;
 use super::voxel::LaneVoxel;
 use crate::kernel::BrickView;
 
@@ -51,9 +52,8 @@ impl<'a, V: LaneVoxel> LaneBrick<'a, V> {
 /// Lanes of rays.
 pub struct LaneRays<L: Lanes> {
     pub start: [L::F; 3],
-    pub step: [L::F; 3],
+    pub steps: LaneSteps<L>,
     pub per_step: [L::F; 3],
-    pub step_length_mm: L::F,
 }
 
 impl<L: Lanes> LaneRays<L> {
@@ -62,9 +62,11 @@ impl<L: Lanes> LaneRays<L> {
     pub fn load<S>(packet: &Packet<S>, first: usize) -> Self {
         Self {
             start: load3::<L>(&packet.start, first),
-            step: load3::<L>(&packet.step, first),
+            steps: LaneSteps {
+                voxels: load3::<L>(&packet.step, first),
+                length_mm: L::load(&packet.step_length_mm[first..]),
+            },
             per_step: load3::<L>(&packet.per_step, first),
-            step_length_mm: L::load(&packet.step_length_mm[first..]),
         }
     }
 }
@@ -115,7 +117,7 @@ impl<V: LaneVoxel> LaneBrick<'_, V> {
         let mut cell = [number; 3];
         for axis in 0..3 {
             // Multiplied, then added, as the definition of the picture has it.
-            let position = L::add(rays.start[axis], L::mul(number, rays.step[axis]));
+            let position = L::add(rays.start[axis], L::mul(number, rays.steps.voxels[axis]));
             owned = L::both(owned, L::ge(position, L::splat(self.owned[0][axis])));
             owned = L::both(owned, L::lt(position, L::splat(self.owned[1][axis])));
             let halo_start = L::splat(self.halo_start[axis]);
@@ -175,10 +177,9 @@ impl<V: LaneVoxel> LaneBrick<'_, V> {
         lerp::<L>(lower, upper, fz)
     }
 
-    /// Twice the change of the stored value per voxel along each axis, by central differences of one voxel: only the
-    /// direction counts.
+    /// Twice the change of the stored value per voxel along each axis.
     #[inline(always)]
-    pub fn gradient<L: Lanes>(&self, place: &LanePlace<L>) -> [L::F; 3] {
+    fn gradient<L: Lanes>(&self, place: &LanePlace<L>) -> [L::F; 3] {
         let [row, slab] = self.strides();
         let [_, fy, fz] = place.fraction;
         // Rows along x are named by their place along y and z, where 0 and 1 are the cell's own.
@@ -222,6 +223,19 @@ impl<V: LaneVoxel> LaneBrick<'_, V> {
 
     fn strides(&self) -> [i32; 2] {
         [self.edge as i32, (self.edge * self.edge) as i32]
+    }
+}
+
+/// The voxels around places in a brick.
+pub struct Surroundings<'a, L: Lanes, V> {
+    pub brick: &'a LaneBrick<'a, V>,
+    pub place: LanePlace<L>,
+}
+
+impl<L: Lanes, V: LaneVoxel> Slopes<L> for Surroundings<'_, L, V> {
+    #[inline(always)]
+    fn gradient(&self) -> [L::F; 3] {
+        self.brick.gradient::<L>(&self.place)
     }
 }
 

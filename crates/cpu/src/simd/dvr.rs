@@ -1,19 +1,19 @@
 use glam::Mat3;
 use glassbrick_volume::{Band, Phong, Rescale};
 
-use super::brick::{LaneBrick, LaneRays};
+use super::brick::{LaneBrick, LaneRays, Surroundings};
 use super::functions::{opacity, power};
-use super::lanes::Lanes;
+use super::lanes::{Lanes, RowLanes};
 use super::look_up::LaneLookUp;
-use super::occupancy::Occupancy;
-use super::packet::{Column, PACKET, Packet};
-use super::projection::Projection;
+use super::occupancy::{Occupancy, OccupiedRows};
+use super::packet::{Column, LaneSteps, PACKET, Packet};
+use super::projection::{Evaluated, Projection, Slopes};
 use super::voxel::LaneVoxel;
 use crate::kernel::{BrickView, NO_SAMPLE};
 
 /// Direct volume rendering: emission and absorption, with or without light.
-pub struct LaneDvr<'a> {
-    pub look_up: LaneLookUp<'a>,
+pub struct LaneDvr {
+    pub look_up: LaneLookUp,
     pub opacity_cutoff: f32,
     pub light: Option<LaneHeadlight>,
     pub bands: Vec<Band>,
@@ -36,9 +36,18 @@ pub struct DvrState {
     depth: [i32; PACKET],
 }
 
-impl Projection for LaneDvr<'_> {
+#[derive(Clone, Copy)]
+pub struct LaneDvrState<L: Lanes> {
+    color: [L::F; 3],
+    opacity: L::F,
+    depth: L::I,
+}
+
+impl Projection for LaneDvr {
     type State = DvrState;
     type Cells = Option<Occupancy>;
+    type RowCells<'b> = OccupiedRows;
+    type Gathered<L: Lanes> = LaneDvrState<L>;
 
     fn start(&self) -> DvrState {
         DvrState { color: [[0.0; PACKET]; 3], opacity: [0.0; PACKET], depth: [NO_SAMPLE as i32; PACKET] }
@@ -52,15 +61,98 @@ impl Projection for LaneDvr<'_> {
         if !self.leaps {
             return Some(None);
         }
-        let shows = |min: f32, max: f32| {
-            let [a, b] = [min, max].map(|stored| self.rescale.value(f64::from(stored)));
-            self.bands.iter().any(|band| band.meets(a.min(b), a.max(b)))
-        };
-        Occupancy::new(brick.brick.cells(), shows).map(Some)
+        Occupancy::new(brick.brick.cells(), |min, max| self.shows(min, max)).map(Some)
     }
 
     fn occupancy(cells: &Option<Occupancy>) -> Option<&Occupancy> {
         cells.as_ref()
+    }
+
+    #[inline(always)]
+    fn load<L: Lanes>(&self, state: &DvrState, first: usize) -> LaneDvrState<L> {
+        LaneDvrState {
+            color: [0, 1, 2].map(|component| L::load(&state.color[component][first..])),
+            opacity: L::load(&state.opacity[first..]),
+            depth: L::load_i(&state.depth[first..]),
+        }
+    }
+
+    #[inline(always)]
+    fn store<L: Lanes>(&self, gathered: &LaneDvrState<L>, state: &mut DvrState, first: usize) {
+        for component in 0..3 {
+            L::store(gathered.color[component], &mut state.color[component][first..]);
+        }
+        L::store(gathered.opacity, &mut state.opacity[first..]);
+        L::store_i(gathered.depth, &mut state.depth[first..]);
+    }
+
+    #[inline(always)]
+    fn add<L: Lanes>(
+        &self,
+        gathered: &mut LaneDvrState<L>,
+        steps: &LaneSteps<L>,
+        evaluated: &Evaluated<L>,
+        slopes: &impl Slopes<L>,
+    ) -> L::M {
+        let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
+        let entry = self.look_up.entry::<L>(evaluated.stored);
+        let seen = L::both(evaluated.rays, self.look_up.may_show::<L>(&entry));
+        if !L::any(seen) {
+            return seen;
+        }
+        let [r, g, b, extinction] = self.look_up.light_and_extinction::<L>(&entry);
+        let seen = L::both(seen, L::gt(extinction, zero));
+        let alpha = opacity::<L>(L::mul(extinction, steps.length_mm));
+        let before = gathered.opacity;
+        let weight = L::select(seen, L::mul(L::sub(one, before), alpha), zero);
+        let mut emitted = [r, g, b];
+        if let Some(light) = &self.light {
+            light.shade::<L>(&mut emitted, slopes.gradient(), steps);
+        }
+        for component in 0..3 {
+            gathered.color[component] = L::mul_add(weight, emitted[component], gathered.color[component]);
+        }
+        let after = L::add(before, weight);
+        gathered.opacity = after;
+        let crossed = L::both(L::both(seen, L::lt(before, half)), L::ge(after, half));
+        gathered.depth = L::select_i(crossed, L::to_i(evaluated.number), gathered.depth);
+        L::both(seen, L::ge(after, L::splat(self.opacity_cutoff)))
+    }
+
+    #[inline(always)]
+    fn may_change<L: Lanes>(&self, _gathered: &LaneDvrState<L>, _number: L::F, _reach: [f32; 2]) -> L::M {
+        L::mask(u32::MAX)
+    }
+
+    fn row_cells<'b>(&self, brick: &BrickView<'b>) -> Option<OccupiedRows> {
+        if !self.leaps {
+            return Some(OccupiedRows::all());
+        }
+        OccupiedRows::new(brick.brick.cells(), |min, max| self.shows(min, max))
+    }
+
+    #[inline(always)]
+    fn row_may_change<L: Lanes>(
+        &self,
+        cells: &OccupiedRows,
+        cell_row: usize,
+        _gathered: &LaneDvrState<L>,
+        _number: L::F,
+        _rays: L::M,
+    ) -> bool {
+        cells.rows[cell_row] != 0
+    }
+
+    #[inline(always)]
+    fn cells_may_change<L: RowLanes>(
+        &self,
+        cells: &OccupiedRows,
+        cell_row: usize,
+        cell_x: L::I,
+        _gathered: &LaneDvrState<L>,
+        _number: L::F,
+    ) -> L::M {
+        L::bits_at(cells.rows[cell_row], cell_x)
     }
 
     #[inline(always)]
@@ -76,13 +168,10 @@ impl Projection for LaneDvr<'_> {
         let mut open = L::mask(packet.open() >> first);
         let (mut number, last) = brick.interval::<L>(&rays);
         let last = L::min(last, L::splat(last_sample));
-        let state = &mut packet.state;
-        let mut color = [0, 1, 2].map(|component| L::load(&state.color[component][first..]));
-        let mut gathered = L::load(&state.opacity[first..]);
-        let mut depth = L::load_i(&state.depth[first..]);
+        let mut gathered = self.load::<L>(&packet.state, first);
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let cutoff = L::splat(self.opacity_cutoff);
         let mut samples = 0;
+        let mut done = L::mask(0);
         loop {
             open = L::both(open, L::ge(last, number));
             if !L::any(open) {
@@ -106,53 +195,40 @@ impl Projection for LaneDvr<'_> {
                     sample = brick.sample::<L>(&rays, number, open);
                 }
             }
-            let evaluated = sample.owned;
-            if L::any(evaluated) {
-                samples += u64::from(L::mask_bits(evaluated).count_ones());
+            if L::any(sample.owned) {
+                samples += u64::from(L::mask_bits(sample.owned).count_ones());
                 let place = brick.place::<L>(&sample);
-                let entry = self.look_up.entry::<L>(brick.value::<L>(&place));
-                let mut seen = L::both(evaluated, self.look_up.may_show::<L>(&entry));
-                if L::any(seen) {
-                    let extinction = self.look_up.extinction::<L>(&entry);
-                    seen = L::both(seen, L::gt(extinction, zero));
-                    let alpha = opacity::<L>(L::mul(extinction, rays.step_length_mm));
-                    let weight = L::select(seen, L::mul(L::sub(one, gathered), alpha), zero);
-                    let mut emitted = self.look_up.color::<L>(&entry);
-                    if let Some(light) = &self.light {
-                        light.shade::<L>(&mut emitted, brick.gradient::<L>(&place), &rays);
-                    }
-                    for component in 0..3 {
-                        color[component] = L::mul_add(weight, emitted[component], color[component]);
-                    }
-                    let half = L::splat(0.5);
-                    let was_under = L::lt(gathered, half);
-                    gathered = L::add(gathered, weight);
-                    let crossed = L::both(L::both(seen, was_under), L::ge(gathered, half));
-                    depth = L::select_i(crossed, L::to_i(number), depth);
-                    open = L::but_not(open, L::both(seen, L::ge(gathered, cutoff)));
-                }
+                let evaluated = Evaluated { rays: sample.owned, number, stored: brick.value::<L>(&place) };
+                let surroundings = Surroundings { brick, place };
+                let closed = self.add::<L>(&mut gathered, &rays.steps, &evaluated, &surroundings);
+                open = L::but_not(open, closed);
+                done = L::either(done, closed);
             }
             number = L::add(number, one);
         }
-        for component in 0..3 {
-            L::store(color[component], &mut state.color[component][first..]);
-        }
-        L::store(gathered, &mut state.opacity[first..]);
-        L::store_i(depth, &mut state.depth[first..]);
-        packet.done |= L::mask_bits(L::ge(gathered, cutoff)) << first;
+        self.store::<L>(&gathered, &mut packet.state, first);
+        packet.done |= L::mask_bits(done) << first;
         samples
     }
 
-    fn finish(&self, packet: &Packet<DvrState>, lane: usize) -> ([f32; 4], u32) {
-        let DvrState { color: [r, g, b], opacity, depth } = &packet.state;
+    fn finish(&self, state: &DvrState, lane: usize) -> ([f32; 4], u32) {
+        let DvrState { color: [r, g, b], opacity, depth } = state;
         ([r[lane], g[lane], b[lane], opacity[lane]], depth[lane] as u32)
+    }
+}
+
+impl LaneDvr {
+    /// Whether anything is seen of some stored value between two.
+    fn shows(&self, min: f32, max: f32) -> bool {
+        let [a, b] = [min, max].map(|stored| self.rescale.value(f64::from(stored)));
+        self.bands.iter().any(|band| band.meets(a.min(b), a.max(b)))
     }
 }
 
 impl LaneHeadlight {
     /// Shades colours by the gradients, in stored values per voxel up to a factor.
     #[inline(always)]
-    fn shade<L: Lanes>(&self, color: &mut [L::F; 3], gradient: [L::F; 3], rays: &LaneRays<L>) {
+    fn shade<L: Lanes>(&self, color: &mut [L::F; 3], gradient: [L::F; 3], steps: &LaneSteps<L>) {
         let normal_from_gradient = self.normal_from_gradient.to_cols_array_2d();
         let mut squared_length = L::splat(0.0);
         for row in 0..3 {
@@ -163,11 +239,11 @@ impl LaneHeadlight {
         }
         let has_slope = L::gt(squared_length, L::splat(0.0));
         // n·l without leaving voxel space: the gradient along the ray is the same in every space.
-        let mut along = L::mul(gradient[0], rays.step[0]);
-        along = L::mul_add(gradient[1], rays.step[1], along);
-        along = L::mul_add(gradient[2], rays.step[2], along);
+        let mut along = L::mul(gradient[0], steps.voxels[0]);
+        along = L::mul_add(gradient[1], steps.voxels[1], along);
+        along = L::mul_add(gradient[2], steps.voxels[2], along);
         let one = L::splat(1.0);
-        let scale = L::mul(L::sqrt(squared_length), rays.step_length_mm);
+        let scale = L::mul(L::sqrt(squared_length), steps.length_mm);
         let n_dot_l = L::min(L::div(L::abs(along), L::select(has_slope, scale, one)), one);
         let Phong { ambient, diffuse, specular, shininess } = self.phong;
         let factor = L::mul_add(L::splat(diffuse), n_dot_l, L::splat(ambient));

@@ -1,8 +1,8 @@
-use super::brick::{LaneBrick, LaneRays};
-use super::lanes::Lanes;
+use super::brick::{LaneBrick, LaneRays, Surroundings};
+use super::lanes::{Lanes, RowLanes};
 use super::occupancy::Occupancy;
-use super::packet::{Column, PACKET, Packet};
-use super::projection::Projection;
+use super::packet::{Column, LaneSteps, PACKET, Packet};
+use super::projection::{Evaluated, Projection, Slopes};
 use super::voxel::LaneVoxel;
 use crate::kernel::{BrickView, NO_SAMPLE};
 use crate::scalar::LookUp;
@@ -24,8 +24,34 @@ pub struct ExtremumState {
     number: Column,
 }
 
+#[derive(Clone, Copy)]
+pub struct LaneExtremumState<L: Lanes> {
+    most: L::F,
+    number: L::F,
+}
+
+impl<L: Lanes> LaneExtremumState<L> {
+    /// The rays that a signed value at a sample changes; bricks come in any order, so an equal value may be nearer.
+    #[inline(always)]
+    fn gains_by(&self, signed: L::F, number: L::F) -> L::M {
+        let nearer = L::both(L::ge(signed, self.most), L::lt(number, self.number));
+        L::either(L::gt(signed, self.most), nearer)
+    }
+}
+
+/// The extremal stored values of a brick's cells.
+pub struct MostOfRows<'b> {
+    /// Of each cell, x fastest.
+    stored: &'b [f32],
+    edge: usize,
+    /// Signed, of each row of cells.
+    most: Vec<f32>,
+}
+
 impl Projection for LaneExtremum<'_> {
     type State = ExtremumState;
+    type RowCells<'b> = MostOfRows<'b>;
+    type Gathered<L: Lanes> = LaneExtremumState<L>;
     /// The largest signed stored value of each cell.
     type Cells = Option<Vec<f32>>;
 
@@ -57,6 +83,74 @@ impl Projection for LaneExtremum<'_> {
     }
 
     #[inline(always)]
+    fn load<L: Lanes>(&self, state: &ExtremumState, first: usize) -> LaneExtremumState<L> {
+        LaneExtremumState { most: L::load(&state.signed[first..]), number: L::load(&state.number[first..]) }
+    }
+
+    #[inline(always)]
+    fn store<L: Lanes>(&self, gathered: &LaneExtremumState<L>, state: &mut ExtremumState, first: usize) {
+        L::store(gathered.most, &mut state.signed[first..]);
+        L::store(gathered.number, &mut state.number[first..]);
+    }
+
+    #[inline(always)]
+    fn add<L: Lanes>(
+        &self,
+        gathered: &mut LaneExtremumState<L>,
+        _steps: &LaneSteps<L>,
+        evaluated: &Evaluated<L>,
+        _slopes: &impl Slopes<L>,
+    ) -> L::M {
+        let signed = L::mul(L::splat(self.sign), evaluated.stored);
+        let more = L::both(evaluated.rays, gathered.gains_by(signed, evaluated.number));
+        gathered.most = L::select(more, signed, gathered.most);
+        gathered.number = L::select(more, evaluated.number, gathered.number);
+        L::mask(0)
+    }
+
+    #[inline(always)]
+    fn may_change<L: Lanes>(&self, gathered: &LaneExtremumState<L>, number: L::F, reach: [f32; 2]) -> L::M {
+        self.if_leaping::<L>(gathered.gains_by(L::splat(self.signed(reach)), number))
+    }
+
+    fn row_cells<'b>(&self, brick: &BrickView<'b>) -> Option<MostOfRows<'b>> {
+        let cells = brick.brick.cells();
+        let stored = if self.sign > 0.0 { &cells.max } else { &cells.min };
+        let most = |row: &[f32]| row.iter().map(|&cell| self.sign * cell).fold(f32::NEG_INFINITY, f32::max);
+        Some(MostOfRows {
+            stored,
+            edge: cells.edge,
+            most: stored.chunks_exact(cells.edge).map(most).collect(),
+        })
+    }
+
+    #[inline(always)]
+    fn row_may_change<L: Lanes>(
+        &self,
+        cells: &MostOfRows,
+        cell_row: usize,
+        gathered: &LaneExtremumState<L>,
+        number: L::F,
+        rays: L::M,
+    ) -> bool {
+        let gains = gathered.gains_by(L::splat(cells.most[cell_row]), number);
+        L::any(L::both(rays, self.if_leaping::<L>(gains)))
+    }
+
+    #[inline(always)]
+    fn cells_may_change<L: RowLanes>(
+        &self,
+        cells: &MostOfRows,
+        cell_row: usize,
+        cell_x: L::I,
+        gathered: &LaneExtremumState<L>,
+        number: L::F,
+    ) -> L::M {
+        let stored = L::pick(&cells.stored[cell_row * cells.edge..][..cells.edge], cell_x);
+        self.if_leaping::<L>(gathered.gains_by(L::mul(L::splat(self.sign), stored), number))
+    }
+
+    #[inline(always)]
     fn march<L: Lanes, V: LaneVoxel>(
         &self,
         packet: &mut Packet<ExtremumState>,
@@ -69,10 +163,8 @@ impl Projection for LaneExtremum<'_> {
         let mut open = L::mask(packet.open() >> first);
         let (mut number, last) = brick.interval::<L>(&rays);
         let last = L::min(last, L::splat(last_sample));
-        let state = &mut packet.state;
-        let mut most = L::load(&state.signed[first..]);
-        let mut found = L::load(&state.number[first..]);
-        let (zero, one, sign) = (L::splat(0.0), L::splat(1.0), L::splat(self.sign));
+        let mut gathered = self.load::<L>(&packet.state, first);
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let mut samples = 0;
         loop {
             open = L::both(open, L::ge(last, number));
@@ -85,9 +177,7 @@ impl Projection for LaneExtremum<'_> {
                 loop {
                     // SAFETY: the index is a cell's.
                     let most_in_cell = unsafe { L::gather(cells.as_ptr(), brick.cell_index::<L>(&sample)) };
-                    let nearer = L::both(L::ge(most_in_cell, most), L::lt(number, found));
-                    let useful = L::either(L::gt(most_in_cell, most), nearer);
-                    let vacant = L::but_not(sample.owned, useful);
+                    let vacant = L::but_not(sample.owned, gathered.gains_by(most_in_cell, number));
                     if !L::any(vacant) {
                         break;
                     }
@@ -97,33 +187,34 @@ impl Projection for LaneExtremum<'_> {
                     sample = brick.sample::<L>(&rays, number, open);
                 }
             }
-            let evaluated = sample.owned;
-            if L::any(evaluated) {
-                samples += u64::from(L::mask_bits(evaluated).count_ones());
+            if L::any(sample.owned) {
+                samples += u64::from(L::mask_bits(sample.owned).count_ones());
                 let place = brick.place::<L>(&sample);
-                let signed = L::mul(sign, brick.value::<L>(&place));
-                let nearer = L::both(L::ge(signed, most), L::lt(number, found));
-                let more = L::both(evaluated, L::either(L::gt(signed, most), nearer));
-                most = L::select(more, signed, most);
-                found = L::select(more, number, found);
+                let evaluated = Evaluated { rays: sample.owned, number, stored: brick.value::<L>(&place) };
+                self.add::<L>(&mut gathered, &rays.steps, &evaluated, &Surroundings { brick, place });
             }
             number = L::add(number, one);
         }
-        L::store(most, &mut state.signed[first..]);
-        L::store(found, &mut state.number[first..]);
+        self.store::<L>(&gathered, &mut packet.state, first);
         samples
     }
 
-    fn finish(&self, packet: &Packet<ExtremumState>, lane: usize) -> ([f32; 4], u32) {
-        let number = packet.state.number[lane];
+    fn finish(&self, state: &ExtremumState, lane: usize) -> ([f32; 4], u32) {
+        let number = state.number[lane];
         if number == f32::INFINITY {
             return ([0.0; 4], NO_SAMPLE);
         }
-        (self.look_up.projected(self.sign * packet.state.signed[lane]), number as u32)
+        (self.look_up.projected(self.sign * state.signed[lane]), number as u32)
     }
 }
 
 impl LaneExtremum<'_> {
+    /// These rays, or all where nothing is leapt over.
+    #[inline(always)]
+    fn if_leaping<L: Lanes>(&self, rays: L::M) -> L::M {
+        if self.leaps { rays } else { L::mask(u32::MAX) }
+    }
+
     /// The largest signed value of a range of stored values.
     fn signed(&self, [min, max]: [f32; 2]) -> f32 {
         if self.sign > 0.0 { max } else { -min }

@@ -80,4 +80,35 @@ pub unsafe trait Lanes: Copy {
     /// # Safety
     /// Each index must lie in the array.
     unsafe fn gather(base: *const f32, indices: Self::I) -> Self::F;
+
+    /// Between each entry and the next, by a fraction: a + t·(b − a) of each of the four columns.
+    ///
+    /// # Safety
+    /// Each entry and the next must lie in the table.
+    #[inline(always)]
+    unsafe fn between(table: *const [f32; 4], entries: Self::I, fraction: Self::F) -> [Self::F; 4] {
+        let mut mixed = [fraction; 4];
+        let first = Self::shift_left::<2>(entries);
+        for column in 0..4 {
+            // SAFETY: the caller's promise.
+            let (a, b) = unsafe {
+                let base = table.cast::<f32>().add(column);
+                (Self::gather(base, first), Self::gather(base.add(4), first))
+            };
+            mixed[column] = Self::mul_add(fraction, Self::sub(b, a), a);
+        }
+        mixed
+    }
+}
+
+/// Sixteen lanes that can pick from rows of cells and voxels without a gather.
+///
+/// # Safety
+/// As of [`Lanes`].
+pub unsafe trait RowLanes: Lanes {
+    /// Whether the bit at each place, below 8, is set.
+    fn bits_at(bits: u8, places: Self::I) -> Self::M;
+
+    /// The element at each place of a row of 16 or fewer; anything for places beyond.
+    fn pick(row: &[f32], places: Self::I) -> Self::F;
 }

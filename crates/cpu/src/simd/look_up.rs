@@ -1,16 +1,14 @@
 use glassbrick_volume::{BAKED_ENTRIES, BakedTransferFunction, Rescale};
 
-use super::brick::lerp;
 use super::lanes::Lanes;
 
 /// A baked transfer function as vectors of stored values look it up.
-pub struct LaneLookUp<'a> {
+pub struct LaneLookUp {
     first_stored: f32,
     /// In two parts, of which the second is what the first was rounded by.
     entries_per_stored: [f32; 2],
-    extinction: &'a [f32],
-    /// Red, green and blue of each entry.
-    color: &'a [f32],
+    /// Red, green, blue and extinction of each entry.
+    table: Vec<[f32; 4]>,
     /// Extinction is zero at and outside these entries, which may lie beyond the ends.
     shown: [f32; 2],
 }
@@ -20,10 +18,12 @@ pub struct LaneEntry<L: Lanes> {
     at: L::F,
 }
 
-impl<'a> LaneLookUp<'a> {
-    pub fn new(baked: &'a BakedTransferFunction, rescale: Rescale) -> Self {
-        let (extinction, color) = (baked.extinction.as_slice(), baked.color.as_flattened());
-        assert!(extinction.len() == BAKED_ENTRIES && color.len() == 3 * BAKED_ENTRIES);
+impl LaneLookUp {
+    pub fn new(baked: &BakedTransferFunction, rescale: Rescale) -> Self {
+        let extinction = baked.extinction.as_slice();
+        let entries = baked.color.iter().zip(extinction);
+        let table: Vec<[f32; 4]> = entries.map(|(&[r, g, b], &extinction)| [r, g, b, extinction]).collect();
+        assert_eq!(table.len(), BAKED_ENTRIES);
         let exact = baked.entries_per_value() * rescale.slope;
         let entries_per_stored = [exact as f32, (exact - f64::from(exact as f32)) as f32];
         let first = extinction.iter().position(|&sigma| sigma > 0.0).unwrap_or(BAKED_ENTRIES) as f32;
@@ -31,8 +31,7 @@ impl<'a> LaneLookUp<'a> {
         Self {
             first_stored: rescale.stored(baked.first_value) as f32,
             entries_per_stored,
-            extinction,
-            color,
+            table,
             shown: [first - 1.0, last + 1.0],
         }
     }
@@ -53,34 +52,12 @@ impl<'a> LaneLookUp<'a> {
         L::both(L::gt(entry.at, L::splat(self.shown[0])), L::lt(entry.at, L::splat(self.shown[1])))
     }
 
-    /// Extinction per mm.
+    /// Red, green and blue in linear light, and extinction per mm.
     #[inline(always)]
-    pub fn extinction<L: Lanes>(&self, entry: &LaneEntry<L>) -> L::F {
+    pub fn light_and_extinction<L: Lanes>(&self, entry: &LaneEntry<L>) -> [L::F; 4] {
         let (floor, fraction) = split::<L>(entry);
-        let index = L::to_i(floor);
-        // SAFETY: the index and the next are entries.
-        let (a, b) = unsafe {
-            let column = self.extinction.as_ptr();
-            (L::gather(column, index), L::gather(column.add(1), index))
-        };
-        lerp::<L>(a, b, fraction)
-    }
-
-    /// Red, green and blue in linear light.
-    #[inline(always)]
-    pub fn color<L: Lanes>(&self, entry: &LaneEntry<L>) -> [L::F; 3] {
-        let (floor, fraction) = split::<L>(entry);
-        let index = L::to_i(L::mul(floor, L::splat(3.0)));
-        let mut color = [fraction; 3];
-        for (component, mixed) in color.iter_mut().enumerate() {
-            // SAFETY: the index is three times an entry, and another entry follows.
-            let (a, b) = unsafe {
-                let column = self.color.as_ptr().add(component);
-                (L::gather(column, index), L::gather(column.add(3), index))
-            };
-            *mixed = lerp::<L>(a, b, fraction);
-        }
-        color
+        // SAFETY: an entry, and not the last.
+        unsafe { L::between(self.table.as_ptr(), L::to_i(floor), fraction) }
     }
 }
 

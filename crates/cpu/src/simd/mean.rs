@@ -1,8 +1,8 @@
-use super::brick::{LaneBrick, LaneRays};
-use super::lanes::Lanes;
+use super::brick::{LaneBrick, LaneRays, Surroundings};
+use super::lanes::{Lanes, RowLanes};
 use super::occupancy::Occupancy;
-use super::packet::{Column, PACKET, Packet};
-use super::projection::Projection;
+use super::packet::{Column, LaneSteps, PACKET, Packet};
+use super::projection::{Evaluated, Projection, Slopes};
 use super::voxel::LaneVoxel;
 use crate::kernel::{BrickView, NO_SAMPLE};
 use crate::scalar::LookUp;
@@ -20,8 +20,17 @@ pub struct MeanState {
     samples: Column,
 }
 
+#[derive(Clone, Copy)]
+pub struct LaneMeanState<L: Lanes> {
+    sum: L::F,
+    lost: L::F,
+    samples: L::F,
+}
+
 impl Projection for LaneMean<'_> {
     type State = MeanState;
+    type RowCells<'b> = ();
+    type Gathered<L: Lanes> = LaneMeanState<L>;
     type Cells = ();
 
     fn start(&self) -> MeanState {
@@ -41,6 +50,73 @@ impl Projection for LaneMean<'_> {
     }
 
     #[inline(always)]
+    fn load<L: Lanes>(&self, state: &MeanState, first: usize) -> LaneMeanState<L> {
+        LaneMeanState {
+            sum: L::load(&state.sum[first..]),
+            lost: L::load(&state.lost[first..]),
+            samples: L::load(&state.samples[first..]),
+        }
+    }
+
+    #[inline(always)]
+    fn store<L: Lanes>(&self, gathered: &LaneMeanState<L>, state: &mut MeanState, first: usize) {
+        L::store(gathered.sum, &mut state.sum[first..]);
+        L::store(gathered.lost, &mut state.lost[first..]);
+        L::store(gathered.samples, &mut state.samples[first..]);
+    }
+
+    #[inline(always)]
+    fn add<L: Lanes>(
+        &self,
+        gathered: &mut LaneMeanState<L>,
+        _steps: &LaneSteps<L>,
+        evaluated: &Evaluated<L>,
+        _slopes: &impl Slopes<L>,
+    ) -> L::M {
+        let value = L::sub(evaluated.stored, gathered.lost);
+        let larger = L::add(gathered.sum, value);
+        let lost = L::sub(L::sub(larger, gathered.sum), value);
+        gathered.lost = L::select(evaluated.rays, lost, gathered.lost);
+        gathered.sum = L::select(evaluated.rays, larger, gathered.sum);
+        let one = L::select(evaluated.rays, L::splat(1.0), L::splat(0.0));
+        gathered.samples = L::add(gathered.samples, one);
+        L::mask(0)
+    }
+
+    #[inline(always)]
+    fn may_change<L: Lanes>(&self, _gathered: &LaneMeanState<L>, _number: L::F, _reach: [f32; 2]) -> L::M {
+        L::mask(u32::MAX)
+    }
+
+    fn row_cells<'b>(&self, _brick: &BrickView<'b>) -> Option<()> {
+        Some(())
+    }
+
+    #[inline(always)]
+    fn row_may_change<L: Lanes>(
+        &self,
+        _cells: &(),
+        _cell_row: usize,
+        _gathered: &LaneMeanState<L>,
+        _number: L::F,
+        _rays: L::M,
+    ) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn cells_may_change<L: RowLanes>(
+        &self,
+        _cells: &(),
+        _cell_row: usize,
+        _cell_x: L::I,
+        _gathered: &LaneMeanState<L>,
+        _number: L::F,
+    ) -> L::M {
+        L::mask(u32::MAX)
+    }
+
+    #[inline(always)]
     fn march<L: Lanes, V: LaneVoxel>(
         &self,
         packet: &mut Packet<MeanState>,
@@ -53,11 +129,7 @@ impl Projection for LaneMean<'_> {
         let mut open = L::mask(packet.open() >> first);
         let (mut number, last) = brick.interval::<L>(&rays);
         let last = L::min(last, L::splat(last_sample));
-        let state = &mut packet.state;
-        let mut sum = L::load(&state.sum[first..]);
-        let mut lost = L::load(&state.lost[first..]);
-        let mut counted = L::load(&state.samples[first..]);
-        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let mut gathered = self.load::<L>(&packet.state, first);
         let mut samples = 0;
         loop {
             open = L::both(open, L::ge(last, number));
@@ -65,23 +137,18 @@ impl Projection for LaneMean<'_> {
                 break;
             }
             let sample = brick.sample::<L>(&rays, number, open);
-            let place = brick.place::<L>(&sample);
             samples += u64::from(L::mask_bits(sample.owned).count_ones());
-            let value = L::sub(brick.value::<L>(&place), lost);
-            let larger = L::add(sum, value);
-            lost = L::select(sample.owned, L::sub(L::sub(larger, sum), value), lost);
-            sum = L::select(sample.owned, larger, sum);
-            counted = L::add(counted, L::select(sample.owned, one, zero));
-            number = L::add(number, one);
+            let place = brick.place::<L>(&sample);
+            let evaluated = Evaluated { rays: sample.owned, number, stored: brick.value::<L>(&place) };
+            self.add::<L>(&mut gathered, &rays.steps, &evaluated, &Surroundings { brick, place });
+            number = L::add(number, L::splat(1.0));
         }
-        L::store(sum, &mut state.sum[first..]);
-        L::store(lost, &mut state.lost[first..]);
-        L::store(counted, &mut state.samples[first..]);
+        self.store::<L>(&gathered, &mut packet.state, first);
         samples
     }
 
-    fn finish(&self, packet: &Packet<MeanState>, lane: usize) -> ([f32; 4], u32) {
-        let MeanState { sum, lost, samples } = &packet.state;
+    fn finish(&self, state: &MeanState, lane: usize) -> ([f32; 4], u32) {
+        let MeanState { sum, lost, samples } = state;
         if samples[lane] == 0.0 {
             return ([0.0; 4], NO_SAMPLE);
         }

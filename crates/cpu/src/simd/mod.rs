@@ -27,6 +27,8 @@ mod voxel;
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+#[cfg(target_arch = "x86_64")]
+mod rows;
 
 use glassbrick_volume::{BrickSource, FrameRays, Mode, PixelRect, ReadError, Skip, Voxels};
 
@@ -76,18 +78,16 @@ pub fn draw(
                 rescale,
                 leaps: settings.skip != Skip::None,
             };
-            draw_with(&common.with(projection), source, scene)
+            common.with(projection).draw(source, scene)
         }
         mode @ (Mode::Mip | Mode::Minip) => {
             // A negative slope turns the largest value into the smallest stored value.
             let sign = if (mode == Mode::Mip) == (rescale.slope > 0.0) { 1.0 } else { -1.0 };
             let look_up = LookUp::new(baked, rescale);
             let leaps = settings.skip == Skip::All;
-            draw_with(&common.with(LaneExtremum { look_up, sign, leaps }), source, scene)
+            common.with(LaneExtremum { look_up, sign, leaps }).draw(source, scene)
         }
-        Mode::Mean => {
-            draw_with(&common.with(LaneMean { look_up: LookUp::new(baked, rescale) }), source, scene)
-        }
+        Mode::Mean => common.with(LaneMean { look_up: LookUp::new(baked, rescale) }).draw(source, scene),
     }
 }
 
@@ -163,13 +163,22 @@ impl<P: Projection> Kernel for Vectors<P> {
 
     fn finish(&self, tile: &Self::Tile, mut pixel: impl FnMut([f32; 4], u32)) {
         for (packet, lane) in tile.pixels() {
-            let (rgba, number) = self.projection.finish(packet, lane);
+            let (rgba, number) = self.projection.finish(&packet.state, lane);
             pixel(rgba, number);
         }
     }
 }
 
 impl<P: Projection> Vectors<P> {
+    /// Draws along the volume's rows where the rays go so, else by gathering voxels.
+    fn draw(&self, source: &dyn BrickSource, scene: &CpuScene) -> Result<CpuFrame, ReadError> {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(rays) = rows::suits(source, scene, self.instruction_set) {
+            return rows::draw(&self.projection, source, scene, &rays);
+        }
+        draw_with(self, source, scene)
+    }
+
     fn add_voxels<V: LaneVoxel>(
         &self,
         tile: &mut PacketTile<P::State>,

@@ -1,5 +1,6 @@
 use glassbrick_volume::{FrameRays, PixelRect};
 
+use super::lanes::Lanes;
 use crate::kernel::overlap;
 
 /// Rays of a packet: 4×4 pixels.
@@ -83,6 +84,13 @@ impl<S> Packet<S> {
     pub fn meets(&self, rect: &PixelRect) -> bool {
         overlap(&self.rect, rect)
     }
+}
+
+/// The way that vectors of rays go from sample to sample.
+pub struct LaneSteps<L: Lanes> {
+    /// In voxels, by axis.
+    pub voxels: [L::F; 3],
+    pub length_mm: L::F,
 }
 
 /// A tile as packets.

@@ -1,0 +1,341 @@
+use std::arch::x86_64::*;
+
+use glam::{IVec3, Vec3};
+use glassbrick_volume::Voxels;
+
+use super::super::avx512::Avx512;
+use super::super::brick::lerp;
+use super::super::lanes::Lanes;
+use super::super::voxel::LaneVoxel;
+use super::track::Step;
+use crate::kernel::BrickView;
+
+type F = <Avx512 as Lanes>::F;
+type I = <Avx512 as Lanes>::I;
+type M = <Avx512 as Lanes>::M;
+
+/// Voxels of 8 or 16 bits, of which a brick's row fits into two registers.
+pub trait RowVoxel: LaneVoxel {
+    /// Those of a brick that has such voxels.
+    fn of(voxels: &Voxels) -> Option<&[Self]>;
+
+    /// Reads the first `edge` (≤ 64) voxels as words.
+    ///
+    /// # Safety
+    /// They must lie there, and AVX-512BW and VL be at hand.
+    unsafe fn row(voxels: *const Self, edge: u64) -> [I; 2];
+
+    /// The lower word of each pair as a number, up to a power of two.
+    fn low(pairs: I) -> F;
+
+    /// The upper word, likewise.
+    fn high(pairs: I) -> F;
+
+    /// Takes that power of two back.
+    fn to_scale(x: F) -> F;
+}
+
+/// A brick as rays along its rows see it.
+pub struct RowBrick<'a, V> {
+    voxels: &'a [V],
+    edge: usize,
+    /// A bit for each voxel of a row.
+    in_row: u64,
+    /// The volume's voxel of its first, along x.
+    pub halo_start_x: i32,
+    /// The half-open range of sample positions along x that it owns.
+    pub owned_x: [f32; 2],
+}
+
+/// Where the samples of a packet lie in a row of voxels.
+pub struct Place {
+    /// The first voxel of the row before them.
+    pub row: u32,
+    /// Along x of each ray, along y and z the same for all.
+    pub fraction: [F; 3],
+}
+
+/// Rows of voxels, of which pairs of neighbours are picked.
+pub trait Rows {
+    /// The voxels at and behind each sample's place along x and `x` more, in the row `y` and `z` aside.
+    fn pairs(&self, place: &Place, x: i32, y: isize, z: isize) -> I;
+}
+
+/// All samples lie in one brick.
+pub struct Single<'a, V> {
+    pub brick: &'a RowBrick<'a, V>,
+    /// The voxel before each sample, along x in the brick.
+    pub at: I,
+}
+
+/// Samples lie in bricks side by side.
+pub struct SideBySide<'a, V, const N: usize> {
+    pub bricks: [&'a RowBrick<'a, V>; N],
+    /// The rays whose samples lie in each.
+    pub rays: [M; N],
+    /// The voxel before each sample, along x in each brick.
+    pub at: [I; N],
+}
+
+impl<V: RowVoxel> Rows for Single<'_, V> {
+    #[inline(always)]
+    fn pairs(&self, place: &Place, x: i32, y: isize, z: isize) -> I {
+        pick(self.brick.row(place.row, y, z), pick_of(self.at, x))
+    }
+}
+
+impl<V: RowVoxel, const N: usize> Rows for SideBySide<'_, V, N> {
+    #[inline(always)]
+    fn pairs(&self, place: &Place, x: i32, y: isize, z: isize) -> I {
+        let mut pairs = pick(self.bricks[0].row(place.row, y, z), pick_of(self.at[0], x));
+        for brick in 1..N {
+            let other = pick(self.bricks[brick].row(place.row, y, z), pick_of(self.at[brick], x));
+            pairs = Avx512::select_i(self.rays[brick], other, pairs);
+        }
+        pairs
+    }
+}
+
+impl<'a, V: RowVoxel> RowBrick<'a, V> {
+    pub const LARGEST_EDGE: u32 = 64;
+
+    pub fn new(view: &BrickView<'a>, voxels: &'a [V]) -> Self {
+        let edge = view.brick.edge;
+        assert!(edge <= Self::LARGEST_EDGE && voxels.len() >= (edge as usize).pow(3));
+        let IVec3 { x: halo_start_x, .. } = view.halo_start;
+        let [Vec3 { x: low, .. }, Vec3 { x: high, .. }] = view.owned;
+        Self {
+            voxels,
+            edge: edge as usize,
+            in_row: u64::MAX >> (64 - edge),
+            halo_start_x,
+            owned_x: [low, high],
+        }
+    }
+
+    /// Places along x in the brick, of voxels of the volume.
+    #[inline(always)]
+    pub fn local(&self, voxel_x: I) -> I {
+        Avx512::add_i(voxel_x, Avx512::splat_i(-self.halo_start_x))
+    }
+
+    /// Asks for two rows, each so far from the one before a sample along y and z.
+    #[inline(always)]
+    pub fn prefetch(&self, step: &Step, rows: [[u32; 2]; 2]) {
+        for [y, z] in rows {
+            let edge = self.edge as u32;
+            let start = self.voxels.as_ptr().wrapping_add((step.row + (z * edge + y) * edge) as usize);
+            // SAFETY: a prefetch reads nothing.
+            unsafe {
+                _mm_prefetch::<_MM_HINT_T0>(start.cast());
+                _mm_prefetch::<_MM_HINT_T0>(start.cast::<i8>().wrapping_add(64));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn row(&self, row: u32, y: isize, z: isize) -> [I; 2] {
+        let edge = self.edge as isize;
+        let start = row as isize + (z * edge + y) * edge;
+        debug_assert!(start >= 0 && (start + edge) as usize <= self.voxels.len());
+        // SAFETY: a sample that a brick owns lies between its second and last but two voxels on each axis, so rows of
+        // the cell and one voxel around it lie in the brick; the row is as long as the brick.
+        unsafe { V::row(self.voxels.as_ptr().offset(start), self.in_row) }
+    }
+}
+
+/// The stored value at each sample: the same steps as where voxels are gathered.
+#[inline(always)]
+pub fn value<V: RowVoxel>(rows: &impl Rows, place: &Place) -> F {
+    let [_, fy, fz] = place.fraction;
+    let lower = lerp::<Avx512>(along_x::<V>(rows, place, 0, 0), along_x::<V>(rows, place, 1, 0), fy);
+    let upper = lerp::<Avx512>(along_x::<V>(rows, place, 0, 1), along_x::<V>(rows, place, 1, 1), fy);
+    V::to_scale(lerp::<Avx512>(lower, upper, fz))
+}
+
+/// The change of the stored value per voxel along each axis, up to a factor.
+#[inline(always)]
+pub fn gradient<V: RowVoxel>(rows: &impl Rows, place: &Place) -> [F; 3] {
+    let [_, fy, fz] = place.fraction;
+    let x0 =
+        lerp::<Avx512>(change_along_x::<V>(rows, place, 0, 0), change_along_x::<V>(rows, place, 1, 0), fy);
+    let x1 =
+        lerp::<Avx512>(change_along_x::<V>(rows, place, 0, 1), change_along_x::<V>(rows, place, 1, 1), fy);
+    let (r00, r10) = (along_x::<V>(rows, place, 0, 0), along_x::<V>(rows, place, 1, 0));
+    let (r01, r11) = (along_x::<V>(rows, place, 0, 1), along_x::<V>(rows, place, 1, 1));
+    let y0 = Avx512::sub(r10, along_x::<V>(rows, place, -1, 0));
+    let y0 = lerp::<Avx512>(y0, Avx512::sub(along_x::<V>(rows, place, 2, 0), r00), fy);
+    let y1 = Avx512::sub(r11, along_x::<V>(rows, place, -1, 1));
+    let y1 = lerp::<Avx512>(y1, Avx512::sub(along_x::<V>(rows, place, 2, 1), r01), fy);
+    let z0 = Avx512::sub(r01, along_x::<V>(rows, place, 0, -1));
+    let z0 = lerp::<Avx512>(z0, Avx512::sub(along_x::<V>(rows, place, 0, 2), r00), fz);
+    let z1 = Avx512::sub(r11, along_x::<V>(rows, place, 1, -1));
+    let z1 = lerp::<Avx512>(z1, Avx512::sub(along_x::<V>(rows, place, 1, 2), r10), fz);
+    let x = lerp::<Avx512>(x0, x1, fz);
+    [V::to_scale(x), V::to_scale(lerp::<Avx512>(y0, y1, fz)), V::to_scale(lerp::<Avx512>(z0, z1, fy))]
+}
+
+/// The value in the row that lies `y` and `z` aside, to the voxel's scale.
+#[inline(always)]
+fn along_x<V: RowVoxel>(rows: &impl Rows, place: &Place, y: isize, z: isize) -> F {
+    let pairs = rows.pairs(place, 0, y, z);
+    lerp::<Avx512>(V::low(pairs), V::high(pairs), place.fraction[0])
+}
+
+/// Twice the change along x in the row that lies `y` and `z` aside, to the voxel's scale.
+#[inline(always)]
+fn change_along_x<V: RowVoxel>(rows: &impl Rows, place: &Place, y: isize, z: isize) -> F {
+    let (before, behind) = (rows.pairs(place, -1, y, z), rows.pairs(place, 1, y, z));
+    let first = Avx512::sub(V::low(behind), V::low(before));
+    lerp::<Avx512>(first, Avx512::sub(V::high(behind), V::high(before)), place.fraction[0])
+}
+
+/// The places of pairs of words, each behind the other, `aside` from some.
+#[inline(always)]
+fn pick_of(x: I, aside: i32) -> I {
+    // SAFETY: used only where AVX-512F was detected.
+    let both = unsafe { _mm512_or_si512(x, _mm512_slli_epi32::<16>(x)) };
+    // Of places that are negative nothing is asked for.
+    Avx512::add_i(both, Avx512::splat_i((1 << 16) + aside * 0x1_0001))
+}
+
+#[inline(always)]
+fn pick([first, second]: [I; 2], places: I) -> I {
+    // SAFETY: used only where AVX-512BW was detected.
+    unsafe { _mm512_permutex2var_epi16(first, places, second) }
+}
+
+impl RowVoxel for u16 {
+    fn of(voxels: &Voxels) -> Option<&[Self]> {
+        if let Voxels::U16(voxels) = voxels { Some(voxels) } else { None }
+    }
+
+    #[inline(always)]
+    unsafe fn row(voxels: *const Self, edge: u64) -> [I; 2] {
+        // SAFETY: the caller's promise; nothing is read where the mask is not set.
+        unsafe { masked_words(voxels.cast(), edge) }
+    }
+
+    #[inline(always)]
+    fn low(pairs: I) -> F {
+        Avx512::to_f(Avx512::and_i(pairs, Avx512::splat_i(0xFFFF)))
+    }
+
+    #[inline(always)]
+    fn high(pairs: I) -> F {
+        // SAFETY: used only where AVX-512F was detected.
+        Avx512::to_f(unsafe { _mm512_srli_epi32::<16>(pairs) })
+    }
+
+    #[inline(always)]
+    fn to_scale(x: F) -> F {
+        x
+    }
+}
+
+impl RowVoxel for i16 {
+    fn of(voxels: &Voxels) -> Option<&[Self]> {
+        if let Voxels::I16(voxels) = voxels { Some(voxels) } else { None }
+    }
+
+    #[inline(always)]
+    unsafe fn row(voxels: *const Self, edge: u64) -> [I; 2] {
+        // SAFETY: the caller's promise; nothing is read where the mask is not set.
+        unsafe { masked_words(voxels, edge) }
+    }
+
+    #[inline(always)]
+    fn low(pairs: I) -> F {
+        // In the upper word the sign is in its place.
+        Avx512::to_f(Avx512::shift_left::<16>(pairs))
+    }
+
+    #[inline(always)]
+    fn high(pairs: I) -> F {
+        Avx512::to_f(Avx512::and_i(pairs, Avx512::splat_i(-0x1_0000)))
+    }
+
+    #[inline(always)]
+    fn to_scale(x: F) -> F {
+        Avx512::mul(x, Avx512::splat(1.0 / 65_536.0))
+    }
+}
+
+impl RowVoxel for u8 {
+    fn of(voxels: &Voxels) -> Option<&[Self]> {
+        if let Voxels::U8(voxels) = voxels { Some(voxels) } else { None }
+    }
+
+    #[inline(always)]
+    unsafe fn row(voxels: *const Self, edge: u64) -> [I; 2] {
+        // SAFETY: the caller's promise; nothing is read where the mask is not set.
+        unsafe {
+            let row = _mm512_maskz_loadu_epi8(edge, voxels.cast());
+            [
+                _mm512_cvtepu8_epi16(_mm512_castsi512_si256(row)),
+                _mm512_cvtepu8_epi16(_mm512_extracti64x4_epi64::<1>(row)),
+            ]
+        }
+    }
+
+    #[inline(always)]
+    fn low(pairs: I) -> F {
+        u16::low(pairs)
+    }
+
+    #[inline(always)]
+    fn high(pairs: I) -> F {
+        u16::high(pairs)
+    }
+
+    #[inline(always)]
+    fn to_scale(x: F) -> F {
+        u16::to_scale(x)
+    }
+}
+
+impl RowVoxel for i8 {
+    fn of(voxels: &Voxels) -> Option<&[Self]> {
+        if let Voxels::I8(voxels) = voxels { Some(voxels) } else { None }
+    }
+
+    #[inline(always)]
+    unsafe fn row(voxels: *const Self, edge: u64) -> [I; 2] {
+        // SAFETY: the caller's promise; nothing is read where the mask is not set.
+        unsafe {
+            let row = _mm512_maskz_loadu_epi8(edge, voxels);
+            [
+                _mm512_cvtepi8_epi16(_mm512_castsi512_si256(row)),
+                _mm512_cvtepi8_epi16(_mm512_extracti64x4_epi64::<1>(row)),
+            ]
+        }
+    }
+
+    #[inline(always)]
+    fn low(pairs: I) -> F {
+        i16::low(pairs)
+    }
+
+    #[inline(always)]
+    fn high(pairs: I) -> F {
+        i16::high(pairs)
+    }
+
+    #[inline(always)]
+    fn to_scale(x: F) -> F {
+        i16::to_scale(x)
+    }
+}
+
+/// # Safety
+/// As of [`RowVoxel::row`].
+#[inline(always)]
+unsafe fn masked_words(words: *const i16, edge: u64) -> [I; 2] {
+    // SAFETY: the caller's promise; nothing is read where the mask is not set.
+    unsafe {
+        [
+            _mm512_maskz_loadu_epi16(edge as u32, words),
+            _mm512_maskz_loadu_epi16((edge >> 32) as u32, words.wrapping_add(32)),
+        ]
+    }
+}
