@@ -117,7 +117,7 @@ fn columns(scene: &CpuScene) -> Vec<Range<usize>> {
         let [[left, top], [right, bottom]] =
             [brick.footprint.min, brick.footprint.max].map(|corner| corner.map(|at| at as usize));
         for columns in &mut columns[top..bottom] {
-            let first = if columns.is_empty() { left } else { columns.start.min(left) };
+            let first = if columns.start == columns.end { left } else { columns.start.min(left) };
             *columns = first..columns.end.max(right);
         }
     }
