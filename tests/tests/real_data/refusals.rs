@@ -73,7 +73,7 @@ fn folders_that_hold_no_volume_or_several_are_refused_in_one_line() {
         ("nifti-odd/nifti_space", "NIfTI"),
         ("ome-zarr/mni152.ome.zarr", "Zarr"),
         ("ome-zarr/neuroglancer-testdata/zarr/ome_zarr/simple_0.4", "Zarr"),
-        ("ome-zarr/neuroglancer-testdata/zarr/ome_zarr/simple_0.5", "Zarr"),
+        ("ome-zarr/neuroglancer-testdata/zarr/ome_zarr/simple_0.5", "brick store"),
         ("ome-zarr/neuroglancer-testdata/n5/n5_viewer_multiscale_modern", "DICOM"),
         ("dicom-odd/pydicom", "name a file"),
     ] {
