@@ -42,9 +42,9 @@ pub fn suits(source: &dyn BrickSource, scene: &CpuScene, instruction_set: Instru
         return None;
     }
     let rays = RowRays::new(scene.rays, PACKET)?;
-    // A packet, and a brick at each end that it barely meets, is to be no wider than there is room for.
-    let widest = (MOST_ABREAST as u32 - 2) * grid.layout.core();
-    (rays.widest(PACKET, scene.rays.sample_count) <= widest as f32).then_some(rays)
+    // What is as wide as so many cores meets two bricks more; footprints are a pixel larger on each side.
+    let (core, widest) = (grid.layout.core(), (MOST_ABREAST as u32 - 2) * grid.layout.core());
+    (rays.widest(PACKET + 2, core, scene.rays.sample_count) < widest as f32).then_some(rays)
 }
 
 /// Draws a frame along rows.

@@ -42,13 +42,50 @@ impl RowRays {
         Some(Self { start_x, step_x, columns, rows })
     }
 
-    /// The most voxels along x that so many rays side by side are apart at any sample.
-    pub fn widest(&self, rays: usize, sample_count: u32) -> f32 {
+    /// The most voxels along x that so many rays side by side, and their ways through a line of bricks, take up.
+    pub fn widest(&self, rays: usize, core: u32, sample_count: u32) -> f32 {
         let apart = |number: f32| {
             let at = |column: usize| self.start_x[column] + number * self.step_x[column];
             let last = self.columns - 1;
             (at(last) - at(0)).abs() / (last.max(1)) as f32 * rays as f32
         };
-        apart(0.0).max(apart(sample_count as f32))
+        // A line of bricks is left after a core along y or z, and so many more voxels along x.
+        let most_along_x = self.step_x[..self.columns].iter().fold(0.0f32, |most, step| most.max(step.abs()));
+        let along_others = |row: &RowRay| row.step[0].abs().max(row.step[1].abs());
+        let least_along_others = self.rows.iter().map(along_others).fold(f32::INFINITY, f32::min);
+        let aside = most_along_x / least_along_others * (core as f32 + least_along_others);
+        apart(0.0).max(apart(sample_count as f32)) + aside
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec3, UVec2, UVec3};
+    use glassbrick_volume::{Camera, NamedView, StoredType, VolumeDesc};
+
+    use super::*;
+
+    fn widest(pixels: u32, eye_mm: DVec3) -> Option<f32> {
+        let desc = VolumeDesc::new(UVec3::splat(300), StoredType::U8);
+        let centre = DVec3::splat(149.5);
+        let camera = Camera { eye_mm, target_mm: centre, ..Camera::framing(&desc, NamedView::Front) };
+        let rays =
+            FrameRays::new(&desc.level(0), &camera, UVec2::splat(pixels), 1.0).expect("a sound camera");
+        Some(RowRays::new(&rays, 16)?.widest(16, 60, rays.sample_count))
+    }
+
+    #[test]
+    fn rays_along_x_take_up_all_of_it() {
+        let along_x = widest(1, DVec3::new(-500.0, 149.5, 149.5)).expect("a single ray is a row of its own");
+        assert!(along_x > 1e6, "{along_x}");
+        let along_y = widest(1, DVec3::new(149.5, -500.0, 149.5)).expect("a single ray is a row of its own");
+        assert!(along_y < 1.0, "{along_y}");
+    }
+
+    #[test]
+    fn fewer_pixels_are_wider() {
+        let eye_mm = DVec3::new(149.5, -900.0, 149.5);
+        let [fine, coarse] = [512, 64].map(|pixels| widest(pixels, eye_mm).expect("seen from the front"));
+        assert!(fine > 16.0 && coarse > 4.0 * fine, "{fine} {coarse}");
     }
 }
