@@ -22,7 +22,9 @@ pub fn read_desc(root: &Path) -> Result<(StoreDesc, u64), StoreError> {
         return Err(not_a_store("it is a file; glassbrick ingest makes a store of a volume"));
     }
     if !path.exists() {
-        return Err(not_a_store("it has no zarr.json, as Zarr version 3 asks for; make it again if it was one"));
+        return Err(not_a_store(
+            "it has no zarr.json, as Zarr version 3 asks for; make it again if it was one",
+        ));
     }
     let (mut group, bytes_read) = read_json(&path)?;
     match group["attributes"].get_mut("glassbrick").map(Value::take) {

@@ -13,6 +13,9 @@ use super::table_chunks::read_chunk;
 use super::{BrickFiles, StoreDesc, StoreError, Table, TableChunks};
 use crate::brick_stats::StoredBrick;
 
+/// No more damage than this is told: a store of which so much is broken is not worth more time.
+const MOST_DAMAGE: usize = 1000;
+
 /// What checking a store found.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Verified {
@@ -46,10 +49,11 @@ pub fn verify(root: &Path, progress: &(dyn Fn(u64, u64) + Sync)) -> Result<Verif
         progress,
         damage: Mutex::new(damage),
     };
-    for (level, grid) in (0..).zip(&grids) {
-        check.level(level, grid);
+    let is_checked = (0..).zip(&grids).all(|(level, grid)| check.level(level, grid));
+    let mut damage = check.damage.into_inner().expect("no thread panicked");
+    if !is_checked {
+        damage.push("so much is damaged that the rest was not checked".to_owned());
     }
-    let damage = check.damage.into_inner().expect("no thread panicked");
     Ok(Verified { levels: store.levels(), bricks, damage })
 }
 
@@ -64,8 +68,8 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    /// Checks a level, chunk of tables by chunk of tables.
-    fn level(&self, level: u32, grid: &BrickGrid) {
+    /// Checks a level, chunk of tables by chunk of tables; false where so much is damaged that it stopped.
+    fn level(&self, level: u32, grid: &BrickGrid) -> bool {
         let chunks = TableChunks::new(grid);
         for chunk in (0..chunks.layers()).flat_map(|layer| chunks.layer(layer)) {
             let [ranges, counts] = Table::ALL.map(|table| self.table_chunk(level, table, chunk));
@@ -85,7 +89,11 @@ impl Check<'_> {
                 .collect();
             damage.sort();
             self.note(damage.into_iter().map(|(_, line)| line));
+            if self.damage.lock().expect("nothing panics while it is held").len() > MOST_DAMAGE {
+                return false;
+            }
         }
+        true
     }
 
     /// The rows of a chunk, if it is sound.
