@@ -9,6 +9,7 @@ use std::time::Duration;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{UVec2, UVec3};
 use glassbrick_benches::{OneBrick, camera, opaque_above, ranges, source};
+use glassbrick_brick_store::Codec;
 use glassbrick_cpu::InstructionSet;
 use glassbrick_volume::{
     Bins, BrickLayout, BrickSource, FramePlan, FrameRays, Mode, NearlyEmpty, Phong, RenderSettings, Rescale,
@@ -95,6 +96,27 @@ fn id() -> glassbrick_volume::BrickId {
     glassbrick_volume::BrickId { level: 0, x: 1, y: 1, z: 1 }
 }
 
+/// What a brick of a store costs to write and to read, beside the disk.
+fn codecs(criterion: &mut Criterion) {
+    let brick = glassbrick_benches::voxels(UVec3::splat(BrickLayout::default().edge));
+    let mut group = criterion.benchmark_group("codec");
+    group.throughput(Throughput::Bytes(brick.len() as u64));
+    for codec in Codec::ALL {
+        let mut encoded = Vec::new();
+        group.bench_function(BenchmarkId::new("encode", codec.name()), |bencher| {
+            bencher.iter(|| {
+                encoded.clear();
+                codec.encode(2, black_box(&brick), &mut encoded);
+            });
+        });
+        let mut decoded = vec![0; brick.len()];
+        group.bench_function(BenchmarkId::new("decode", codec.name()), |bencher| {
+            bencher.iter(|| codec.decode(black_box(&encoded), &mut decoded).expect("it was encoded"));
+        });
+    }
+    group.finish();
+}
+
 /// What a change of the transfer function costs, and what a change of the camera costs.
 fn lists(criterion: &mut Criterion) {
     let ranges = ranges(MANY_BRICKS);
@@ -138,6 +160,6 @@ fn lists(criterion: &mut Criterion) {
 criterion_group! {
     name = micro;
     config = Criterion::default().sample_size(20).warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(2));
-    targets = samples, tables, lists
+    targets = samples, tables, codecs, lists
 }
 criterion_main!(micro);
