@@ -8,7 +8,8 @@
 //! threads come to a tile changes nothing.
 //!
 //! How a tile takes a brick's samples is a kernel's: `scalar` goes sample by sample and is the truth that others are
-//! held to; `simd` takes packets of rays at once, and leaps over cells of a brick that show nothing.
+//! held to; `simd` takes packets of rays at once, and leaps over cells of a brick that show nothing. Where rays go along
+//! the volume's rows and memory holds all bricks, `simd::rows` takes rows of pixels through all their bricks instead.
 
 mod by_blocks;
 mod by_layers;

@@ -1,5 +1,5 @@
 use glam::Mat3;
-use glassbrick_volume::{Band, Phong, Rescale};
+use glassbrick_volume::Phong;
 
 use super::brick::{LaneBrick, LaneRays, Surroundings};
 use super::functions::{opacity, power};
@@ -8,6 +8,7 @@ use super::look_up::LaneLookUp;
 use super::occupancy::{Occupancy, OccupiedRows};
 use super::packet::{Column, LaneSteps, PACKET, Packet};
 use super::projection::{Evaluated, Projection, Slopes};
+use super::shown::Shown;
 use super::voxel::LaneVoxel;
 use crate::kernel::{BrickView, NO_SAMPLE};
 
@@ -16,8 +17,7 @@ pub struct LaneDvr {
     pub look_up: LaneLookUp,
     pub opacity_cutoff: f32,
     pub light: Option<LaneHeadlight>,
-    pub bands: Vec<Band>,
-    pub rescale: Rescale,
+    pub shown: Shown,
     /// Whether cells in which nothing can be seen are leapt over.
     pub leaps: bool,
 }
@@ -61,7 +61,7 @@ impl Projection for LaneDvr {
         if !self.leaps {
             return Some(None);
         }
-        Occupancy::new(brick.brick.cells(), |min, max| self.shows(min, max)).map(Some)
+        Occupancy::new(brick.brick.cells(), |min, max| self.shown.meets(min, max)).map(Some)
     }
 
     fn occupancy(cells: &Option<Occupancy>) -> Option<&Occupancy> {
@@ -128,7 +128,7 @@ impl Projection for LaneDvr {
         if !self.leaps {
             return Some(OccupiedRows::all());
         }
-        OccupiedRows::new(brick.brick.cells(), |min, max| self.shows(min, max))
+        OccupiedRows::new(brick.brick.cells(), |min, max| self.shown.meets(min, max))
     }
 
     #[inline(always)]
@@ -214,14 +214,6 @@ impl Projection for LaneDvr {
     fn finish(&self, state: &DvrState, lane: usize) -> ([f32; 4], u32) {
         let DvrState { color: [r, g, b], opacity, depth } = state;
         ([r[lane], g[lane], b[lane], opacity[lane]], depth[lane] as u32)
-    }
-}
-
-impl LaneDvr {
-    /// Whether anything is seen of some stored value between two.
-    fn shows(&self, min: f32, max: f32) -> bool {
-        let [a, b] = [min, max].map(|stored| self.rescale.value(f64::from(stored)));
-        self.bands.iter().any(|band| band.meets(a.min(b), a.max(b)))
     }
 }
 

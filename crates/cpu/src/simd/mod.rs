@@ -21,6 +21,7 @@ mod occupancy;
 mod packet;
 mod portable;
 mod projection;
+mod shown;
 mod voxel;
 
 #[cfg(target_arch = "x86_64")]
@@ -45,6 +46,7 @@ use mean::LaneMean;
 use packet::{PACKET, PacketTile};
 use portable::Portable;
 use projection::Projection;
+use shown::Shown;
 use voxel::LaneVoxel;
 
 /// Bricks larger than this have voxels that an `f32` cannot count.
@@ -74,8 +76,7 @@ pub fn draw(
                 look_up: LaneLookUp::new(baked, rescale),
                 opacity_cutoff: settings.effective_cutoff(),
                 light,
-                bands: baked.bands(),
-                rescale,
+                shown: Shown::new(&baked.bands(), rescale),
                 leaps: settings.skip != Skip::None,
             };
             common.with(projection).draw(source, scene)

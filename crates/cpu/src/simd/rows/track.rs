@@ -4,7 +4,7 @@ use glam::{UVec3, Vec3};
 use glassbrick_volume::{BrickGrid, CELL_EDGE_LOG2, Ray};
 
 use super::rays::RowRay;
-use crate::scalar::samples_in_box;
+use crate::scalar::{floor_to_i32, samples_in_box};
 
 /// The way of a picture's row of rays through the volume, seen along x.
 pub struct Track {
@@ -92,11 +92,11 @@ impl Track {
         let mut run: Option<Run> = None;
         for number in numbers {
             let at = ray.sample(number);
-            let floor = at.floor();
-            let [y, z] =
-                [floor.y as i32 - halo_start.y, floor.z as i32 - halo_start.z].map(|place| place as u32);
+            // Not `floor`, which is a call where the processor is not known.
+            let [floor_y, floor_z] = [at.y, at.z].map(floor_to_i32);
+            let [y, z] = [floor_y - halo_start.y, floor_z - halo_start.z].map(|place| place as u32);
             self.steps[(number - self.first) as usize] =
-                Step { row: (z * edge + y) * edge, fraction: [at.y - floor.y, at.z - floor.z] };
+                Step { row: (z * edge + y) * edge, fraction: [at.y - floor_y as f32, at.z - floor_z as f32] };
             let cell_row = ((z >> CELL_EDGE_LOG2) * cells + (y >> CELL_EDGE_LOG2)) as usize;
             match &mut run {
                 Some(run) if run.cell_row == cell_row => run.numbers.end = number + 1,
