@@ -8,6 +8,7 @@ mod any;
 mod boundary_bricks;
 mod emptiness;
 mod frame_plans;
+mod instruction_sets;
 mod ownership;
 mod ranges;
 mod sample_counts;

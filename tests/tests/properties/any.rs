@@ -98,6 +98,27 @@ pub fn view(most: u32) -> impl Strategy<Value = View> {
     )
 }
 
+/// Views along an axis of the volume, rows of pixels wide enough for sixteen rays and more.
+pub fn wide_view(most: u32) -> impl Strategy<Value = View> {
+    let size = [1..=70u32, 1..=5u32].prop_map(UVec2::from_array);
+    let step = prop_oneof![Just(1.0), 0.4..2.5];
+    let named = select(vec![NamedView::Front, NamedView::Back, NamedView::Top, NamedView::Bottom]);
+    let along = (point(0.8), 0..3usize, any::<bool>()).prop_map(|(eye, axis, forward)| Stand::Anywhere {
+        eye: eye + 0.5,
+        look: Look::Along { axis, forward, tilt: DVec3::ZERO },
+    });
+    let stand = prop_oneof![named.prop_map(Stand::Named), along];
+    let mirrored = DMat3::from_cols(DVec3::NEG_X, DVec3::Y, DVec3::NEG_Z);
+    let direction = select(vec![DMat3::IDENTITY, mirrored]);
+    (desc(most), direction, layout(), stand, lens(), size, step).prop_map(
+        |(desc, direction, layout, stand, lens, size, step_voxels)| {
+            let desc = VolumeDesc { direction, ..desc };
+            let camera = lens.through(stand.camera(&desc, layout), &desc);
+            View { desc, layout, camera, size, step_voxels }
+        },
+    )
+}
+
 /// Where the viewer stands and looks.
 #[derive(Clone, Debug)]
 enum Stand {
