@@ -2,7 +2,7 @@
 
 use glam::{DVec3, UVec2, UVec3};
 use glassbrick_brick_store::{CachedSource, FlatSource};
-use glassbrick_cpu::{CpuScene, InstructionSet};
+use glassbrick_cpu::{CpuScene, InstructionSet, ShownCells};
 use glassbrick_volume::{
     BakedTransferFunction, BrickLayout, BrickRange, BrickSource, Camera, ControlPoint, FramePlan, FrameRays,
     NamedView, Projection, RenderSettings, StoredType, TransferFunction, VolumeDesc,
@@ -39,6 +39,7 @@ pub struct OneBrick {
     rays: FrameRays,
     plan: FramePlan,
     transfer_function: BakedTransferFunction,
+    shown_cells: ShownCells,
 }
 
 impl OneBrick {
@@ -54,7 +55,7 @@ impl OneBrick {
         let point = |value, opacity| ControlPoint { value, color: [1.0, value / 2000.0, 0.5], opacity };
         let points = vec![point(0.0, opacity), point(2000.0, opacity * 0.5)];
         let transfer_function = TransferFunction { points, unit_mm: None }.bake(1.0);
-        Self { source, rays, plan, transfer_function }
+        Self { source, rays, plan, transfer_function, shown_cells: ShownCells::new(1) }
     }
 
     /// Draws it; returns how many samples were evaluated.
@@ -64,6 +65,7 @@ impl OneBrick {
             plan: &self.plan,
             transfer_function: &self.transfer_function,
             settings,
+            shown_cells: &self.shown_cells,
             allow_damaged: false,
         };
         glassbrick_cpu::draw(&self.source, &scene, instruction_set).expect("an array is read").samples

@@ -10,6 +10,7 @@ use glassbrick_volume::{
 };
 
 use crate::kernel::{BrickView, Kernel};
+use crate::simd::ShownCells;
 use crate::{by_blocks, by_layers};
 
 /// What is to be drawn.
@@ -18,6 +19,8 @@ pub struct CpuScene<'a> {
     pub plan: &'a FramePlan,
     pub transfer_function: &'a BakedTransferFunction,
     pub settings: RenderSettings,
+    /// What other frames of the same source, level and transfer function found.
+    pub shown_cells: &'a ShownCells,
     /// Whether bricks that cannot be read are left out; else the first one ends the drawing.
     pub allow_damaged: bool,
 }

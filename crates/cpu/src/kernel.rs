@@ -37,6 +37,8 @@ pub const NO_SAMPLE: u32 = u32::MAX;
 #[derive(Clone, Copy)]
 pub struct BrickView<'a> {
     pub brick: &'a Brick,
+    /// Its place in the grid.
+    pub index: u32,
     /// The pixels that can meet it.
     pub footprint: PixelRect,
     /// The volume's voxel that is the brick's first.
@@ -52,6 +54,7 @@ impl<'a> BrickView<'a> {
         let at = grid.brick(planned.index as usize);
         Self {
             brick,
+            index: planned.index,
             footprint: planned.footprint,
             halo_start: grid.halo_start(at),
             owned: grid.owned_box(at),

@@ -22,7 +22,7 @@ mod tiles;
 use glassbrick_volume::{BrickSource, ReadError};
 
 pub use executor::{CpuFrame, CpuScene};
-pub use simd::InstructionSet;
+pub use simd::{InstructionSet, ShownCells};
 
 /// Draws a planned frame on the threads of the current rayon pool.
 ///

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{UVec2, UVec3};
 use glassbrick_brick_store::FlatSource;
-use glassbrick_cpu::{CpuFrame, CpuScene, InstructionSet, draw};
+use glassbrick_cpu::{CpuFrame, CpuScene, InstructionSet, ShownCells, draw};
 use glassbrick_volume::{
     Brick, BrickGrid, BrickId, BrickLayout, BrickRange, BrickSource, Camera, ControlPoint, FramePlan,
     FrameRays, Mode, NamedView, Phong, ReadError, RenderSettings, Skip, StoredType, TransferFunction,
@@ -108,8 +108,15 @@ fn frame(
         (0..grid.len() as u32).collect()
     };
     let plan = FramePlan::new(0, &grid, &rays, &bricks);
-    let scene =
-        CpuScene { rays: &rays, plan: &plan, transfer_function: &baked, settings, allow_damaged: false };
+    let shown_cells = ShownCells::new(grid.len());
+    let scene = CpuScene {
+        rays: &rays,
+        plan: &plan,
+        transfer_function: &baked,
+        settings,
+        shown_cells: &shown_cells,
+        allow_damaged: false,
+    };
     draw(source, &scene, InstructionSet::best()).expect("an array can be read")
 }
 

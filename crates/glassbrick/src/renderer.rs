@@ -9,7 +9,7 @@ use glassbrick_volume::{
     NearlyEmpty, ResidencyCounts, Skip, StageTimes, VisibleBricks,
 };
 
-use crate::visible_levels::{VisibleLevels, choose_level};
+use crate::visible_levels::{VisibleLevel, VisibleLevels, choose_level};
 use crate::{Error, RenderRequest, Volume, process_memory};
 
 /// A finished picture and what is said about it.
@@ -66,7 +66,7 @@ impl<'a> Renderer<'a> {
         }
         // What repeats went through is nobody's: the next report counts from here.
         self.residency();
-        let bricks = self.brick_counts(&first, level, &visible, in_frustum);
+        let bricks = self.brick_counts(&first, level, &visible.bricks, in_frustum);
         let mut warnings = self.warnings.clone();
         warnings.extend(left_out(&first.damaged));
         warnings.extend(self.why_nothing_is_shown(&first.frame, &bricks));
@@ -115,7 +115,7 @@ impl<'a> Renderer<'a> {
         &self,
         camera: &Camera,
         level: u32,
-        visible: &VisibleBricks,
+        visible: &VisibleLevel,
         render_all: &mut Vec<f64>,
     ) -> Result<(CpuFrame, Duration, usize), Error> {
         let start = Instant::now();
@@ -123,13 +123,14 @@ impl<'a> Renderer<'a> {
         let rays = FrameRays::new(&self.volume.desc().level(level), camera, size, self.request.step_voxels)
             .map_err(Error::View)?;
         let source = &self.volume.source;
-        let plan = FramePlan::new(level, &source.grid(level), &rays, &visible.bricks);
+        let plan = FramePlan::new(level, &source.grid(level), &rays, &visible.bricks.bricks);
         let plan_time = start.elapsed();
         let scene = CpuScene {
             rays: &rays,
             plan: &plan,
             transfer_function: &self.transfer_function,
             settings: self.request.settings,
+            shown_cells: &visible.cells,
             allow_damaged: self.request.allow_damaged,
         };
         let drawn =

@@ -3,6 +3,7 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use glam::UVec2;
+use glassbrick_cpu::ShownCells;
 use glassbrick_volume::{
     BakedTransferFunction, BrickSource, Camera, Mode, Skip, VisibleBricks, all_bricks, filtered_visible,
     without_nearly_empty,
@@ -19,9 +20,16 @@ pub struct VisibleLevels {
     found: Mutex<Found>,
 }
 
+/// What a transfer function can see of a level.
+pub struct VisibleLevel {
+    pub bricks: VisibleBricks,
+    /// Found brick by brick, as they are drawn.
+    pub cells: ShownCells,
+}
+
 #[derive(Default)]
 struct Found {
-    levels: BTreeMap<u32, Arc<VisibleBricks>>,
+    levels: BTreeMap<u32, Arc<VisibleLevel>>,
     time: Duration,
 }
 
@@ -41,14 +49,15 @@ impl VisibleLevels {
         level: u32,
         request: &RenderRequest,
         transfer_function: &BakedTransferFunction,
-    ) -> Result<Arc<VisibleBricks>, Error> {
+    ) -> Result<Arc<VisibleLevel>, Error> {
         let mut found = self.found.lock().expect("nothing panics while it is held");
         if let Some(visible) = found.levels.get(&level) {
             return Ok(Arc::clone(visible));
         }
         let start = Instant::now();
-        let visible = volume.threads.install(|| visible_bricks(volume, level, request, transfer_function))?;
-        let visible = Arc::new(visible);
+        let bricks = volume.threads.install(|| visible_bricks(volume, level, request, transfer_function))?;
+        let cells = ShownCells::new(volume.source.grid(level).len());
+        let visible = Arc::new(VisibleLevel { bricks, cells });
         found.levels.insert(level, Arc::clone(&visible));
         found.time += start.elapsed();
         Ok(visible)

@@ -9,15 +9,17 @@ use super::occupancy::{Occupancy, OccupiedRows};
 use super::packet::{Column, LaneSteps, PACKET, Packet};
 use super::projection::{Evaluated, Projection, Slopes};
 use super::shown::Shown;
+use super::shown_cells::ShownCells;
 use super::voxel::LaneVoxel;
 use crate::kernel::{BrickView, NO_SAMPLE};
 
 /// Direct volume rendering: emission and absorption, with or without light.
-pub struct LaneDvr {
+pub struct LaneDvr<'a> {
     pub look_up: LaneLookUp,
     pub opacity_cutoff: f32,
     pub light: Option<LaneHeadlight>,
     pub shown: Shown,
+    pub shown_cells: &'a ShownCells,
     /// Whether cells in which nothing can be seen are leapt over.
     pub leaps: bool,
 }
@@ -43,10 +45,10 @@ pub struct LaneDvrState<L: Lanes> {
     depth: L::I,
 }
 
-impl Projection for LaneDvr {
+impl<'a> Projection for LaneDvr<'a> {
     type State = DvrState;
-    type Cells = Option<Occupancy>;
-    type RowCells<'b> = OccupiedRows;
+    type Cells = Option<&'a Occupancy>;
+    type RowCells<'b> = &'a OccupiedRows;
     type Gathered<L: Lanes> = LaneDvrState<L>;
 
     fn start(&self) -> DvrState {
@@ -57,15 +59,16 @@ impl Projection for LaneDvr {
         packet.done
     }
 
-    fn cells(&self, brick: &BrickView) -> Option<Option<Occupancy>> {
+    fn cells(&self, brick: &BrickView) -> Option<Option<&'a Occupancy>> {
         if !self.leaps {
             return Some(None);
         }
-        Occupancy::new(brick.brick.cells(), |min, max| self.shown.meets(min, max)).map(Some)
+        let find = || Occupancy::new(brick.brick.cells(), |min, max| self.shown.meets(min, max));
+        self.shown_cells.occupancy(brick.index, find).map(Some)
     }
 
-    fn occupancy(cells: &Option<Occupancy>) -> Option<&Occupancy> {
-        cells.as_ref()
+    fn occupancy<'b>(cells: &'b Option<&'a Occupancy>) -> Option<&'b Occupancy> {
+        *cells
     }
 
     #[inline(always)]
@@ -124,17 +127,18 @@ impl Projection for LaneDvr {
         L::mask(u32::MAX)
     }
 
-    fn row_cells<'b>(&self, brick: &BrickView<'b>) -> Option<OccupiedRows> {
+    fn row_cells<'b>(&self, brick: &BrickView<'b>) -> Option<&'a OccupiedRows> {
         if !self.leaps {
-            return Some(OccupiedRows::all());
+            return Some(&self.shown_cells.all_rows);
         }
-        OccupiedRows::new(brick.brick.cells(), |min, max| self.shown.meets(min, max))
+        let find = || OccupiedRows::new(brick.brick.cells(), |min, max| self.shown.meets(min, max));
+        self.shown_cells.rows(brick.index, find)
     }
 
     #[inline(always)]
     fn row_may_change<L: Lanes>(
         &self,
-        cells: &OccupiedRows,
+        cells: &&'a OccupiedRows,
         cell_row: usize,
         _gathered: &LaneDvrState<L>,
         _number: L::F,
@@ -146,7 +150,7 @@ impl Projection for LaneDvr {
     #[inline(always)]
     fn cells_may_change<L: RowLanes>(
         &self,
-        cells: &OccupiedRows,
+        cells: &&'a OccupiedRows,
         cell_row: usize,
         cell_x: L::I,
         _gathered: &LaneDvrState<L>,
@@ -161,7 +165,7 @@ impl Projection for LaneDvr {
         packet: &mut Packet<DvrState>,
         first: usize,
         brick: &LaneBrick<V>,
-        cells: &Option<Occupancy>,
+        cells: &Option<&'a Occupancy>,
         last_sample: f32,
     ) -> u64 {
         let rays = LaneRays::<L>::load(packet, first);

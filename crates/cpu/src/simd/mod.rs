@@ -22,6 +22,7 @@ mod packet;
 mod portable;
 mod projection;
 mod shown;
+mod shown_cells;
 mod voxel;
 
 #[cfg(target_arch = "x86_64")]
@@ -47,6 +48,7 @@ use packet::{PACKET, PacketTile};
 use portable::Portable;
 use projection::Projection;
 use shown::Shown;
+pub use shown_cells::ShownCells;
 use voxel::LaneVoxel;
 
 /// Bricks larger than this have voxels that an `f32` cannot count.
@@ -77,6 +79,7 @@ pub fn draw(
                 opacity_cutoff: settings.effective_cutoff(),
                 light,
                 shown: Shown::new(&baked.bands(), rescale),
+                shown_cells: scene.shown_cells,
                 leaps: settings.skip != Skip::None,
             };
             common.with(projection).draw(source, scene)
