@@ -150,7 +150,7 @@ impl BrickSource for FlatSource {
 
     fn brick(&self, id: BrickId) -> Result<Arc<Brick>, ReadError> {
         self.count_read(self.grid.layout.voxels() as u64 * self.desc.stored_type.bytes() as u64);
-        Ok(Arc::new(cut_brick(&self.desc, &self.voxels, &self.grid, UVec3::new(id.x, id.y, id.z))))
+        Ok(Arc::new(cut_brick(&self.desc, &self.voxels, &self.grid, id.place())))
     }
 
     /// The operating system reads mapped files ahead by itself.

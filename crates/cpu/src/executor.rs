@@ -3,7 +3,6 @@ use std::ops::Deref;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 
-use glam::UVec3;
 use glassbrick_volume::{
     BakedTransferFunction, Brick, BrickGrid, BrickId, BrickRange, BrickSource, Frame, FramePlan, FrameRays,
     PlannedBrick, ReadError, RenderSettings, Skip,
@@ -113,8 +112,7 @@ impl<'a> Picture<'a> {
     }
 
     fn id(&self, brick: &PlannedBrick) -> BrickId {
-        let UVec3 { x, y, z } = self.grid.brick(brick.index as usize);
-        BrickId { level: self.scene.plan.level, x, y, z }
+        BrickId::new(self.scene.plan.level, self.grid.brick(brick.index as usize))
     }
 
     /// A brick in its place in the frame.

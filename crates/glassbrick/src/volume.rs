@@ -2,7 +2,6 @@ use std::path::Path;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use glam::UVec3;
 use glassbrick_brick_store::{CachedSource, FlatSource, StoreDesc, StoreSource, is_zarr};
 use glassbrick_formats::OpenOptions;
 use glassbrick_volume::{BrickId, BrickLayout, BrickSource, VolumeDesc, VolumeReader, VoxelCountTable};
@@ -171,8 +170,7 @@ impl Volume {
         }
         let (start, read_before) = (Instant::now(), source.bytes_read());
         for &index in &chosen {
-            let UVec3 { x, y, z } = source.grid(0).brick(index as usize);
-            source.brick(BrickId { level: 0, x, y, z })?;
+            source.brick(BrickId::new(0, source.grid(0).brick(index as usize)))?;
         }
         let per_brick = |sum: f64| sum / chosen.len() as f64;
         let read = source.bytes_read() - read_before;

@@ -64,6 +64,18 @@ pub struct BrickId {
     pub z: u32,
 }
 
+impl BrickId {
+    /// The brick at a place in a level's grid.
+    pub fn new(level: u32, brick: UVec3) -> Self {
+        Self { level, x: brick.x, y: brick.y, z: brick.z }
+    }
+
+    /// Its place in the grid.
+    pub fn place(self) -> UVec3 {
+        UVec3::new(self.x, self.y, self.z)
+    }
+}
+
 /// The bricks of one level of a volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BrickGrid {

@@ -1,4 +1,3 @@
-use std::cell::RefCell;
 use std::path::Path;
 
 use glam::UVec3;
@@ -9,11 +8,6 @@ use super::bricks_at_once;
 use super::slice_window::SliceFeed;
 use crate::element::{Element, with_element};
 use crate::store::{BrickFiles, StoreDesc, StoreError};
-
-thread_local! {
-    /// Room for a brick's bytes: as in its file, and decoded.
-    static ROOM: RefCell<[Vec<u8>; 2]> = const { RefCell::new([Vec::new(), Vec::new()]) };
-}
 
 /// The slices of a level, each voxel the average of those of the stored level below that it covers.
 pub struct HalvedSlices<'a> {
@@ -74,13 +68,9 @@ impl<'a> HalvedSlices<'a> {
 
     /// The averages over a brick's core.
     fn halve_brick(&self, brick: UVec3) -> Result<Vec<u8>, StoreError> {
-        let id = BrickId { level: self.below, x: brick.x, y: brick.y, z: brick.z };
         let core = self.grid_below.core_end(brick) - self.grid_below.core_start(brick);
-        ROOM.with_borrow_mut(|[encoded, voxels]| {
-            voxels.resize(self.store.brick_bytes(), 0);
-            self.files.read(id, encoded, voxels, || Ok(()))?;
-            Ok(halved(voxels, self.store, core))
-        })
+        let id = BrickId::new(self.below, brick);
+        self.files.read(id, || Ok(()), |_, voxels| halved(voxels, self.store, core))
     }
 }
 

@@ -222,7 +222,7 @@ impl<'a> LevelWriter<'a> {
     }
 
     fn id(&self, brick: UVec3) -> BrickId {
-        BrickId { level: self.level, x: brick.x, y: brick.y, z: brick.z }
+        BrickId::new(self.level, brick)
     }
 }
 

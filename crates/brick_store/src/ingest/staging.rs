@@ -118,14 +118,16 @@ impl Staging {
                 return fs::rename(&self.folder, &self.target);
             }
             if platform::exchange(&self.folder, &self.target).is_ok() {
-                return fs::remove_dir_all(&self.folder);
+                remove_left(&self.folder);
+                return Ok(());
             }
             fs::rename(&self.target, &self.replaced)?;
             if let Err(error) = fs::rename(&self.folder, &self.target) {
                 fs::rename(&self.replaced, &self.target)?;
                 return Err(error);
             }
-            fs::remove_dir_all(&self.replaced)
+            remove_left(&self.replaced);
+            Ok(())
         };
         take_place().map_err(|source| self.write_error(source))
     }
@@ -133,8 +135,7 @@ impl Staging {
     /// Removes all that was made.
     pub fn discard(mut self) {
         self.lock = None;
-        // What cannot be removed is cleared by the next run.
-        let _ = fs::remove_dir_all(&self.folder);
+        remove_left(&self.folder);
     }
 
     /// Ends what a run began that was stopped while it put its store in the target's place, where that takes two steps.
@@ -189,6 +190,11 @@ fn check_target(target: &Path, replace: bool) -> Result<(), StoreError> {
         return Err(StoreError::Target { path, what });
     }
     if replace { Ok(()) } else { Err(StoreError::Exists { path }) }
+}
+
+/// Removes what nobody needs any more. What cannot be removed is cleared by the next run.
+fn remove_left(folder: &Path) {
+    let _ = fs::remove_dir_all(folder);
 }
 
 fn remove_if_there(path: &Path) -> io::Result<()> {

@@ -1,8 +1,8 @@
+use std::cell::RefCell;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use glam::UVec3;
 use glassbrick_volume::BrickId;
 use quick_cache::sync::Cache;
 
@@ -12,6 +12,11 @@ use crate::platform;
 
 /// Shards that are kept open, at most.
 const OPEN_SHARDS: usize = 256;
+
+thread_local! {
+    /// Room for a brick's bytes: as in its file, and decoded.
+    static ROOM: RefCell<[Vec<u8>; 2]> = const { RefCell::new([Vec::new(), Vec::new()]) };
+}
 
 /// The files in which the bricks of a store lie.
 pub struct BrickFiles {
@@ -43,23 +48,43 @@ impl BrickFiles {
         }
     }
 
-    /// Fills `voxels` with the stored voxels of a brick, little-endian; `encoded` is room to work in. `check_shard`
-    /// is asked after each opening of a shard.
+    /// Reads a brick's stored voxels, little-endian, which `use_voxels` is given. `check_shard` is asked after each
+    /// opening of a shard.
     ///
     /// # Errors
     /// When the brick cannot be read or is damaged; it is named.
-    pub fn read(
+    pub fn read<R>(
         &self,
         id: BrickId,
+        check_shard: impl Fn() -> Result<(), StoreError>,
+        use_voxels: impl FnOnce(Found, &[u8]) -> R,
+    ) -> Result<R, StoreError> {
+        let shard = self.shard(id, check_shard)?;
+        ROOM.with_borrow_mut(|[encoded, voxels]| {
+            voxels.resize(self.brick_bytes, 0);
+            let found = match shard.index.place(id.place()) {
+                Some(place) => {
+                    self.read_place(id, &shard, place, encoded, voxels)?;
+                    Found::Stored
+                }
+                None => {
+                    voxels.fill(0);
+                    Found::Zeros
+                }
+            };
+            Ok(use_voxels(found, voxels))
+        })
+    }
+
+    /// Reads and decodes what is stored at an offset, with a length.
+    fn read_place(
+        &self,
+        id: BrickId,
+        shard: &Shard,
+        [offset, len]: [u64; 2],
         encoded: &mut Vec<u8>,
         voxels: &mut [u8],
-        check_shard: impl Fn() -> Result<(), StoreError>,
-    ) -> Result<Found, StoreError> {
-        let shard = self.shard(id, check_shard)?;
-        let Some([offset, len]) = shard.index.place(place(id)) else {
-            voxels.fill(0);
-            return Ok(Found::Zeros);
-        };
+    ) -> Result<(), StoreError> {
         let damaged = |what: &str| StoreError::DamagedBrick {
             brick: brick_name(id),
             path: shard.path.clone(),
@@ -72,20 +97,7 @@ impl BrickFiles {
         platform::read_exact_at(&shard.file, encoded, offset)
             .map_err(|source| StoreError::reading(&shard.path, source))?;
         self.bytes_read.fetch_add(len, Ordering::Relaxed);
-        self.codec.decode(encoded, voxels).map_err(damaged)?;
-        Ok(Found::Stored)
-    }
-
-    /// Bytes that a brick takes in its file. `check_shard` is asked after each opening of a shard.
-    ///
-    /// # Errors
-    /// When its shard cannot be read.
-    pub fn encoded_bytes(
-        &self,
-        id: BrickId,
-        check_shard: impl Fn() -> Result<(), StoreError>,
-    ) -> Result<u64, StoreError> {
-        Ok(self.shard(id, check_shard)?.index.place(place(id)).map_or(0, |[_, len]| len))
+        self.codec.decode(encoded, voxels).map_err(damaged)
     }
 
     /// Asks the system to bring a brick's bytes into memory. `check_shard` is asked after each opening of a shard, which
@@ -93,7 +105,7 @@ impl BrickFiles {
     pub fn will_need(&self, id: BrickId, check_shard: impl Fn() -> Result<(), StoreError>) {
         // Whoever reads the brick is told what is wrong with it.
         if let Ok(shard) = self.shard(id, check_shard)
-            && let Some([offset, len]) = shard.index.place(place(id))
+            && let Some([offset, len]) = shard.index.place(id.place())
         {
             platform::will_need(&shard.file, offset, len);
         }
@@ -129,8 +141,4 @@ fn named(error: StoreError, id: BrickId) -> StoreError {
         StoreError::Damaged { path, what } => StoreError::DamagedBrick { brick: brick_name(id), path, what },
         other => other,
     }
-}
-
-fn place(id: BrickId) -> UVec3 {
-    UVec3::new(id.x, id.y, id.z)
 }

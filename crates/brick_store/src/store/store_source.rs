@@ -1,4 +1,3 @@
-use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
@@ -82,42 +81,8 @@ impl StoreSource {
         &self.store
     }
 
-    /// Bytes that a brick takes in its file.
-    ///
-    /// # Errors
-    /// When its shard cannot be read.
-    pub fn encoded_bytes(&self, id: BrickId) -> Result<u64, StoreError> {
-        self.files.encoded_bytes(id, || self.check_it_is_the_same())
-    }
-
-    /// Fills `voxels` with a brick's stored voxels, little-endian; `encoded` is room to work in.
-    ///
-    /// # Errors
-    /// When it cannot be read or is damaged.
-    pub fn read_stored(
-        &self,
-        id: BrickId,
-        encoded: &mut Vec<u8>,
-        voxels: &mut [u8],
-    ) -> Result<(), StoreError> {
-        let found = self.files.read(id, encoded, voxels, || self.check_it_is_the_same())?;
-        let level = &self.levels[id.level as usize];
-        let range = level.ranges[level.grid.index(glam::UVec3::new(id.x, id.y, id.z))];
-        if found == Found::Zeros && range.reach != [0.0; 2] {
-            return Err(StoreError::DamagedBrick {
-                brick: brick_name(id),
-                path: self.root.join(shard_path(id)),
-                what: "does not hold it".to_owned(),
-            });
-        }
-        Ok(())
-    }
-
-    /// The voxel-count tables of a level, read anew.
-    ///
-    /// # Errors
-    /// When they cannot be read or are damaged.
-    pub fn read_tables(&self, level: u32) -> Result<Vec<VoxelCountTable>, StoreError> {
+    /// The voxel-count tables of a level.
+    fn read_tables(&self, level: u32) -> Result<Vec<VoxelCountTable>, StoreError> {
         let TableRows { rows, bytes_read } = read_table(&self.root, &self.store, level, Table::VoxelCounts)?;
         self.check_it_is_the_same()?;
         self.bytes_read.fetch_add(bytes_read, Ordering::Relaxed);
@@ -161,14 +126,8 @@ fn is_sound(BrickRange { reach, core }: &BrickRange) -> bool {
 }
 
 fn table_damage(root: &Path, table: Table, grid: &BrickGrid, level: u32, index: usize) -> StoreError {
-    let [x, y, z] = grid.brick(index).to_array();
-    let what = format!("says what cannot be of {}", brick_name(BrickId { level, x, y, z }));
+    let what = format!("says what cannot be of {}", brick_name(BrickId::new(level, grid.brick(index))));
     StoreError::Damaged { path: root.join(level_path(level)).join(table.name()), what }
-}
-
-thread_local! {
-    /// Room for a brick's bytes: as in its file, and decoded.
-    static ROOM: RefCell<[Vec<u8>; 2]> = const { RefCell::new([Vec::new(), Vec::new()]) };
 }
 
 fn keep<S: Stored>(voxels: &[u8], edge: u32) -> Brick {
@@ -207,11 +166,22 @@ impl BrickSource for StoreSource {
     }
 
     fn brick(&self, id: BrickId) -> Result<Arc<Brick>, ReadError> {
-        ROOM.with_borrow_mut(|[encoded, voxels]| {
-            voxels.resize(self.store.brick_bytes(), 0);
-            self.read_stored(id, encoded, voxels)?;
-            let (stored_type, edge) = (self.store.volume.stored_type, self.store.layout.edge);
-            Ok(Arc::new(with_stored!(stored_type, Endian::Little, keep(voxels, edge))))
+        let level = &self.levels[id.level as usize];
+        let is_zero = level.ranges[level.grid.index(id.place())].reach == [0.0; 2];
+        let (stored_type, edge) = (self.store.volume.stored_type, self.store.layout.edge);
+        let kept = self.files.read(
+            id,
+            || self.check_it_is_the_same(),
+            |found, voxels| {
+                // A brick that is not stored holds nothing but zeros, and its range must say so.
+                (found == Found::Stored || is_zero)
+                    .then(|| with_stored!(stored_type, Endian::Little, keep(voxels, edge)))
+            },
+        )?;
+        kept.map(Arc::new).ok_or_else(|| {
+            let path = self.root.join(shard_path(id));
+            let what = "does not hold it".to_owned();
+            StoreError::DamagedBrick { brick: brick_name(id), path, what }.into()
         })
     }
 

@@ -115,19 +115,19 @@ impl Check<'_> {
         at: UVec3,
         [range_row, counts_row]: [Option<Vec<u8>>; 2],
     ) -> Vec<String> {
-        let id = BrickId { level, x: at.x, y: at.y, z: at.z };
-        let mut voxels = vec![0; self.store.brick_bytes()];
-        let found = match self.files.read(id, &mut Vec::new(), &mut voxels, || Ok(())) {
-            Ok(found) => found,
+        let id = BrickId::new(level, at);
+        let StoreDesc { volume, layout, .. } = self.store;
+        let (stored_type, layout, core) =
+            (volume.stored_type, *layout, grid.core_end(at) - grid.core_start(at));
+        let read = self.files.read(
+            id,
+            || Ok(()),
+            |found, voxels| (found, StoredBrick { voxels, stored_type, layout, core }.stats()),
+        );
+        let (found, stats) = match read {
+            Ok(read) => read,
             Err(error) => return vec![error.to_string()],
         };
-        let stats = StoredBrick {
-            voxels: &voxels,
-            stored_type: self.store.volume.stored_type,
-            layout: self.store.layout,
-            core: grid.core_end(at) - grid.core_start(at),
-        }
-        .stats();
         let mut cumulative = Vec::with_capacity(VCT_BINS * size_of::<u32>());
         cumulative.extend(stats.table.cumulative.iter().flat_map(|count| count.to_le_bytes()));
         let mut damage = Vec::new();

@@ -40,7 +40,7 @@ pub fn sample(source: &dyn BrickSource) -> Result<Vec<Part>, ReadError> {
     let step = pair_step(&grid, chosen.len());
     let read = |&(index, weight): &(usize, f64)| {
         let at = grid.brick(index);
-        let brick = source.brick(BrickId { level: 0, x: at.x, y: at.y, z: at.z })?;
+        let brick = source.brick(BrickId::new(0, at))?;
         let (pairs, faces) = part_of(&brick, &grid, at, step);
         Ok(Part {
             voxels_per_pair: stand_for * weight * voxels(index) / pairs.len() as f64,
