@@ -27,6 +27,7 @@ use glassbrick_tests::scenes::Scene;
 use tempfile::TempDir;
 
 use crate::binary::{Outcome, glassbrick};
+use crate::robustness::names_in;
 use array_reader::ArrayReader;
 
 /// A folder for volumes and stores.
@@ -82,14 +83,6 @@ impl Scratch {
     fn names(&self) -> Vec<String> {
         names_in(self.folder.path())
     }
-}
-
-fn names_in(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).expect("a folder");
-    let mut names: Vec<String> =
-        entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
-    names
 }
 
 /// Every file below a folder, by its path there, with its bytes.
