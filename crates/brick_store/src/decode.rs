@@ -1,7 +1,7 @@
 use glassbrick_volume::{Brick, BrickCells, BrickLayout, Endian, StoredType, Voxels};
 
 /// A type that voxels are kept in memory in.
-pub trait Kept: Copy + Default + PartialOrd + Send + Sync + 'static {
+pub trait Kept: bytemuck::Pod + Default + PartialOrd + Send + Sync {
     /// Bounds that every voxel narrows: larger and smaller than all.
     const ABOVE_ALL: Self;
     const BELOW_ALL: Self;
@@ -51,7 +51,7 @@ kept! {
     f32 => F32, false, f32::NEG_INFINITY, f32::INFINITY;
 }
 
-/// How stored bytes become kept voxels.
+/// How stored bytes become kept voxels; those that are kept as they are stored are copied as bytes.
 pub trait Stored: Send + Sync + 'static {
     type Kept: Kept;
     const BYTES: usize;
@@ -66,7 +66,7 @@ pub trait Stored: Send + Sync + 'static {
 }
 
 macro_rules! stored {
-    ($($name:ident: $stored:ty, $from_bytes:ident => $kept:ty, $keep:expr, $whole:literal;)*) => {$(
+    ($($name:ident: $stored:ty, $from_bytes:ident => $kept:ty, $keep:expr, $whole:literal, $as_stored:expr;)*) => {$(
         pub struct $name;
 
         impl Stored for $name {
@@ -76,6 +76,12 @@ macro_rules! stored {
 
             #[inline(always)]
             fn decode(stored: &[u8], kept: &mut [$kept]) {
+                if $as_stored {
+                    let kept: &mut [u8] = bytemuck::cast_slice_mut(kept);
+                    let len = kept.len().min(stored.len());
+                    kept[..len].copy_from_slice(&stored[..len]);
+                    return;
+                }
                 let (voxels, _) = stored.as_chunks::<{ size_of::<$stored>() }>();
                 let keep: fn($stored) -> $kept = $keep;
                 for (kept, bytes) in kept.iter_mut().zip(voxels) {
@@ -100,20 +106,20 @@ fn finite_or_zero(value: f32) -> f32 {
 }
 
 stored! {
-    StoredU8: u8, from_ne_bytes => u8, |v| v, true;
-    StoredI8: i8, from_ne_bytes => i8, |v| v, true;
-    LittleU16: u16, from_le_bytes => u16, |v| v, true;
-    LittleI16: i16, from_le_bytes => i16, |v| v, true;
-    LittleU32: u32, from_le_bytes => f32, |v| v as f32, true;
-    LittleI32: i32, from_le_bytes => f32, |v| v as f32, true;
-    LittleF32: f32, from_le_bytes => f32, finite_or_zero, false;
-    LittleF64: f64, from_le_bytes => f32, |v| finite_or_zero(v as f32), false;
-    BigU16: u16, from_be_bytes => u16, |v| v, true;
-    BigI16: i16, from_be_bytes => i16, |v| v, true;
-    BigU32: u32, from_be_bytes => f32, |v| v as f32, true;
-    BigI32: i32, from_be_bytes => f32, |v| v as f32, true;
-    BigF32: f32, from_be_bytes => f32, finite_or_zero, false;
-    BigF64: f64, from_be_bytes => f32, |v| finite_or_zero(v as f32), false;
+    StoredU8: u8, from_ne_bytes => u8, |v| v, true, true;
+    StoredI8: i8, from_ne_bytes => i8, |v| v, true, true;
+    LittleU16: u16, from_le_bytes => u16, |v| v, true, cfg!(target_endian = "little");
+    LittleI16: i16, from_le_bytes => i16, |v| v, true, cfg!(target_endian = "little");
+    LittleU32: u32, from_le_bytes => f32, |v| v as f32, true, false;
+    LittleI32: i32, from_le_bytes => f32, |v| v as f32, true, false;
+    LittleF32: f32, from_le_bytes => f32, finite_or_zero, false, false;
+    LittleF64: f64, from_le_bytes => f32, |v| finite_or_zero(v as f32), false, false;
+    BigU16: u16, from_be_bytes => u16, |v| v, true, cfg!(target_endian = "big");
+    BigI16: i16, from_be_bytes => i16, |v| v, true, cfg!(target_endian = "big");
+    BigU32: u32, from_be_bytes => f32, |v| v as f32, true, false;
+    BigI32: i32, from_be_bytes => f32, |v| v as f32, true, false;
+    BigF32: f32, from_be_bytes => f32, finite_or_zero, false, false;
+    BigF64: f64, from_be_bytes => f32, |v| finite_or_zero(v as f32), false, false;
 }
 
 /// Calls a generic function with the [`Stored`] of a stored type and byte order.
