@@ -1,0 +1,48 @@
+#define_import_path glassbrick::frame
+
+// What every pass of a frame knows. Written once in Rust as `Frame`.
+struct Frame {
+    // The tile of the picture that is drawn, in pixels.
+    tile_origin: vec2u,
+    tile_size: vec2u,
+    // Columns of the whole picture.
+    picture_width: u32,
+    // Samples of a ray, at most.
+    sample_count: u32,
+    // Voxels along a brick's core.
+    core: u32,
+    halo: u32,
+    // Bricks along each axis of the level.
+    grid_counts: vec3u,
+    // 1 where a brick that is not resident is passed by, 0 where its ray waits for it.
+    passes_missing: u32,
+    // The volume's box with its margin, in voxels; the outermost cores reach to it.
+    volume_low: vec3f,
+    opacity_cutoff: f32,
+    volume_high: vec3f,
+    // 1 to look for the largest stored value, -1 for the smallest.
+    sign: f32,
+    // Texture coordinates per texel of an atlas texture.
+    atlas_from_texel: vec3f,
+    // The stored value at which the transfer function's first entry stands.
+    first_stored: f32,
+    // stored = dot(texel.rg, stored_from_texel) + stored_bias
+    stored_from_texel: vec2f,
+    stored_bias: f32,
+    entries_per_stored: f32,
+    // Ambient, diffuse, specular, shininess.
+    phong: vec4f,
+    // Takes gradients per voxel to world space, up to a common factor: three columns.
+    normal_from_gradient: mat3x3f,
+    // Length of a step along the view's axis, in mm.
+    step_mm: f32,
+    // 1 where cells and bricks that cannot change a pixel are left out.
+    skips_unchanged: u32,
+    // A box's depth in clip space is x + y times its slice: what is nearer than all samples is clipped, nothing else.
+    box_depth: vec2f,
+    // For projections: a value's rank, 1 for the best that the volume has, is x times the stored value, and y.
+    rank_from_stored: vec2f,
+    padding: vec2u,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;

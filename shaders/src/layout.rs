@@ -1,0 +1,96 @@
+//! The structs that passes read, as they lie in memory. A test compares each with what naga finds in the WGSL.
+
+use bytemuck::{Pod, Zeroable};
+
+/// What every pass of a frame knows; `shared/frame.wgsl` says what each field is.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Frame {
+    pub tile_origin: [u32; 2],
+    pub tile_size: [u32; 2],
+    pub picture_width: u32,
+    pub sample_count: u32,
+    pub core: u32,
+    pub halo: u32,
+    pub grid_counts: [u32; 3],
+    pub passes_missing: u32,
+    pub volume_low: [f32; 3],
+    pub opacity_cutoff: f32,
+    pub volume_high: [f32; 3],
+    pub sign: f32,
+    pub atlas_from_texel: [f32; 3],
+    pub first_stored: f32,
+    pub stored_from_texel: [f32; 2],
+    pub stored_bias: f32,
+    pub entries_per_stored: f32,
+    pub phong: [f32; 4],
+    /// Columns of three, each padded to four.
+    pub normal_from_gradient: [[f32; 4]; 3],
+    pub step_mm: f32,
+    pub skips_unchanged: u32,
+    pub box_depth: [f32; 2],
+    pub rank_from_stored: [f32; 2],
+    pub padding: [u32; 2],
+}
+
+/// What a column or a row of the picture adds to its rays; see `shared/rays.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct RayPart {
+    pub start_high: [f32; 4],
+    pub start_low: [f32; 4],
+    pub step_high: [f32; 4],
+    pub step_low: [f32; 4],
+}
+
+/// What a ray of the raycast pass has gathered, and where it goes on; see `passes/raycast.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct RayState {
+    pub gathered: [f32; 4],
+    pub next: u32,
+    pub surface: u32,
+    pub samples: u32,
+    pub padding: u32,
+}
+
+impl RayState {
+    /// Of a ray that has met no sample.
+    pub const START: Self =
+        Self { gathered: [0.0; 4], next: 0, surface: Self::NO_SAMPLE, samples: 0, padding: 0 };
+
+    /// Of a ray whose pixel shows no surface.
+    pub const NO_SAMPLE: u32 = u32::MAX;
+}
+
+/// A brick as slices and boxes are drawn of it; see `shared/sliced_brick.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct SlicedBrick {
+    pub corners: [[f32; 4]; 8],
+    pub owned_low: [f32; 3],
+    pub last_slice: f32,
+    pub owned_high: [f32; 3],
+    pub best: f32,
+    pub texel_from_voxel: [f32; 3],
+    pub padding: u32,
+}
+
+/// Which queries are a layer's; see `passes/visible.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct QueryRange {
+    pub first: u32,
+    pub count: u32,
+}
+
+/// An indirect draw of indexed vertices.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct DrawArgs {
+    pub index_count: u32,
+    pub instance_count: u32,
+    pub first_index: u32,
+    pub base_vertex: i32,
+    pub first_instance: u32,
+}
