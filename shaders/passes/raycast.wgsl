@@ -15,7 +15,7 @@ struct RayState {
     gathered: vec4f,
     // The sample to go on with; the ray's end when it is done.
     next: u32,
-    // The sample that the pixel's depth is taken from.
+    // One more than the sample that the pixel's depth is taken from; 0 where there is none.
     surface: u32,
     // Samples evaluated.
     samples: u32,
@@ -25,7 +25,7 @@ struct RayState {
 // Page table entries that are not slots.
 const NOT_PLANNED: u32 = 0xffffffffu;
 const MISSING: u32 = 0xfffffffeu;
-const NO_SAMPLE: u32 = 0xffffffffu;
+const NO_SAMPLE: u32 = 0u;
 // What became of a brick in this frame.
 const ASKED_FOR: u32 = 1u;
 const RENDERED: u32 = 2u;
@@ -80,7 +80,7 @@ fn add(state: ptr<function, RayState>, slot: Slot, ray: Ray, number: u32) -> boo
     let opacity = gathered.a + weight;
     (*state).gathered = vec4f(gathered.rgb + weight * color, opacity);
     if opacity >= 0.5 && (*state).surface == NO_SAMPLE {
-        (*state).surface = number;
+        (*state).surface = number + 1u;
     }
     return opacity >= frame.opacity_cutoff;
 #else
@@ -88,7 +88,7 @@ fn add(state: ptr<function, RayState>, slot: Slot, ray: Ray, number: u32) -> boo
     let signed = frame.sign * stored;
     if (*state).surface == NO_SAMPLE || signed > (*state).gathered.x {
         (*state).gathered.x = signed;
-        (*state).surface = number;
+        (*state).surface = number + 1u;
     }
 #else
     // The sum of many values, with what its rounding lost.

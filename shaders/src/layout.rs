@@ -43,7 +43,7 @@ pub struct RayPart {
     pub step_low: [f32; 4],
 }
 
-/// What a ray of the raycast pass has gathered, and where it goes on; see `passes/raycast.wgsl`.
+/// What a ray of the raycast pass has gathered, and where it goes on; zeros at the start. See `passes/raycast.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RayState {
@@ -52,15 +52,6 @@ pub struct RayState {
     pub surface: u32,
     pub samples: u32,
     pub padding: u32,
-}
-
-impl RayState {
-    /// Of a ray that has met no sample.
-    pub const START: Self =
-        Self { gathered: [0.0; 4], next: 0, surface: Self::NO_SAMPLE, samples: 0, padding: 0 };
-
-    /// Of a ray whose pixel shows no surface.
-    pub const NO_SAMPLE: u32 = u32::MAX;
 }
 
 /// A brick as slices and boxes are drawn of it; see `shared/sliced_brick.wgsl`.

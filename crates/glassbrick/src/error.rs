@@ -3,6 +3,7 @@ use std::path::PathBuf;
 
 use glassbrick_brick_store::{SourceError, StoreError};
 use glassbrick_formats::FormatError;
+use glassbrick_gpu::GpuError;
 use glassbrick_volume::ReadError;
 
 /// Why glassbrick could not do what it was asked to. Each message is one line that names the file, says what is
@@ -45,6 +46,9 @@ pub enum Error {
     /// A level that the volume does not have.
     #[error("level {level} does not exist: this volume has levels 0 to {last}")]
     Level { level: u32, last: u32 },
+    /// The GPU cannot draw.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
     /// The threads cannot be started.
     #[error("the threads cannot be started: {what}; ask for fewer")]
     Threads { what: String },

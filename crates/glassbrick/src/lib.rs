@@ -20,9 +20,11 @@
 //! ```
 
 mod auto_transfer_function;
+mod backend;
 mod camera_file;
 mod encode;
 mod error;
+mod executor;
 mod histogram;
 mod presets;
 mod process_memory;
@@ -36,6 +38,7 @@ mod visible_levels;
 mod volume;
 
 pub use auto_transfer_function::auto_transfer_function;
+pub use backend::{Backend, Gpu};
 pub use camera_file::read_camera;
 pub use encode::{
     AnimationDesc, AnimationFormat, AnimationWriter, Background, OutputFormat, PictureFormat, check_output,
@@ -45,6 +48,7 @@ pub use error::Error;
 pub use glassbrick_brick_store::{Codec, Ingested, StoreDesc, Verified};
 pub use glassbrick_cpu::InstructionSet;
 pub use glassbrick_formats::{OpenOptions, RawLayout};
+pub use glassbrick_gpu::GpuPass;
 pub use glassbrick_volume::{
     Band, BrickCounts, BrickLayout, BrickSource, Camera, ControlPoint, Endian, Frame, FrameReport, Mode,
     NamedView, NearlyEmpty, Phong, Projection, RenderSettings, Rescale, ResidencyCounts, Skip, StageTimes,
@@ -53,7 +57,7 @@ pub use glassbrick_volume::{
 pub use histogram::Histogram;
 pub use presets::{PRESETS, Preset, preset};
 pub use process_memory::{MemoryPeaks, peaks as memory_peaks};
-pub use render_request::{LevelChoice, RenderRequest};
+pub use render_request::{DEFAULT_GPU_MEMORY_BYTES, LevelChoice, RenderRequest};
 pub use renderer::{Rendered, Renderer};
 pub use report_json::report_json;
 pub use store::{IngestSettings, ingest, stored_bytes, verify};

@@ -1,13 +1,17 @@
 use glassbrick_cpu::InstructionSet;
+use glassbrick_gpu::GpuPass;
 use glassbrick_volume::{NearlyEmpty, RenderSettings, TransferFunction};
 
-use crate::{Error, process_memory};
+use crate::{Backend, Error, process_memory};
 
 /// Pixels along a side of a picture, at most.
 const MOST_PIXELS: u32 = 32_768;
 
 /// Memory that a pixel takes at least: colour, opacity and depth, and three bytes of its picture.
 const PIXEL_BYTES: u64 = 5 * size_of::<f32>() as u64 + 3;
+
+/// Memory of a GPU for bricks, where nothing is said.
+pub const DEFAULT_GPU_MEMORY_BYTES: u64 = 512 << 20;
 
 /// What is to be drawn, besides the volume and the camera.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,9 +25,15 @@ pub struct RenderRequest {
     /// Nearly empty bricks to drop, in direct volume rendering; loses something of the picture.
     pub nearly_empty: NearlyEmpty,
     pub level: LevelChoice,
+    /// What draws.
+    pub backend: Backend,
+    /// How a GPU draws.
+    pub pass: GpuPass,
+    /// Memory of a GPU for bricks.
+    pub gpu_memory_bytes: u64,
     /// Whether bricks that cannot be read are left out; else the first one ends the drawing.
     pub allow_damaged: bool,
-    /// What the processor draws with; the best that it has where nothing is said.
+    /// What the CPU draws with; the best that it has where nothing is said.
     pub instruction_set: Option<InstructionSet>,
 }
 
@@ -37,6 +47,9 @@ impl RenderRequest {
             settings: RenderSettings::default(),
             nearly_empty: NearlyEmpty::KEEP,
             level: LevelChoice::Auto,
+            backend: Backend::Cpu,
+            pass: GpuPass::default(),
+            gpu_memory_bytes: DEFAULT_GPU_MEMORY_BYTES,
             allow_damaged: false,
             instruction_set: None,
         }

@@ -1,14 +1,15 @@
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use glam::UVec2;
 use glassbrick_brick_store::CacheCounts;
-use glassbrick_cpu::{CpuFrame, CpuScene, InstructionSet};
 use glassbrick_volume::{
-    BakedTransferFunction, BrickCounts, BrickSource, Camera, Frame, FramePlan, FrameRays, FrameReport, Mode,
-    NearlyEmpty, ResidencyCounts, Skip, StageTimes, VisibleBricks,
+    BakedTransferFunction, BrickCounts, BrickId, BrickSource, Camera, Frame, FramePlan, FrameRays,
+    FrameReport, Mode, NearlyEmpty, ResidencyCounts, Skip, StageTimes, VisibleBricks, boundary_bricks,
 };
 
+use crate::executor::{Drawn, Executor, Waiting};
 use crate::visible_levels::{VisibleLevel, VisibleLevels, choose_level};
 use crate::{Error, RenderRequest, Volume, process_memory};
 
@@ -24,9 +25,11 @@ pub struct Renderer<'a> {
     volume: &'a Volume,
     request: RenderRequest,
     transfer_function: BakedTransferFunction,
+    executor: Executor,
     visible: VisibleLevels,
     warnings: Vec<String>,
     tables_time: Duration,
+    boundary_pinned: AtomicUsize,
 }
 
 /// What went through a volume's memory since it was opened.
@@ -40,15 +43,52 @@ impl<'a> Renderer<'a> {
     /// Bakes the transfer function; what it can see of a level is found when that is first drawn.
     ///
     /// # Errors
-    /// When the request is impossible.
+    /// When the request is impossible, or the GPU that it names has no room.
     pub fn new(volume: &'a Volume, request: RenderRequest) -> Result<Self, Error> {
         let start = Instant::now();
         request.check()?;
         let transfer_function = request.transfer_function.bake(volume.desc().smallest_spacing_mm());
         let warnings = warnings(volume, &request);
         let tables_time = volume.scan_time() + start.elapsed();
-        let visible = VisibleLevels::new();
-        Ok(Self { volume, request, transfer_function, visible, warnings, tables_time })
+        let executor = Executor::new(volume, &request)?;
+        Ok(Self {
+            volume,
+            request,
+            transfer_function,
+            executor,
+            visible: VisibleLevels::new(),
+            warnings,
+            tables_time,
+            boundary_pinned: AtomicUsize::new(0),
+        })
+    }
+
+    /// Prefetches boundary bricks of the level that a camera's picture is drawn of, and keeps them on the GPU: a view from
+    /// outside meets them first, whatever its direction. Worth its while for many views, not for a single picture.
+    /// Nothing is waited for; returns how many bricks are kept.
+    ///
+    /// # Errors
+    /// When the camera or the level is impossible, or tables cannot be read.
+    pub fn pin_boundary(&self, camera: &Camera) -> Result<usize, Error> {
+        let level = choose_level(self.volume, &self.request, camera)?;
+        let visible = self.visible.at(self.volume, level, &self.request, &self.transfer_function)?;
+        let grid = self.volume.source.grid(level);
+        let id = |index: u32| BrickId::new(level, grid.brick(index as usize));
+        let pinned = self
+            .executor
+            .pin(|slots| boundary_bricks(&visible.bricks, &grid, slots).into_iter().map(id).collect());
+        self.boundary_pinned.store(pinned, Ordering::Relaxed);
+        Ok(pinned)
+    }
+
+    /// Draws what is resident of the picture that a camera sees, without waiting for bricks: those that are missing are
+    /// asked for, and repeated calls converge to the whole picture. The report says whether this one is complete. The CPU
+    /// waits for its bricks, and its pictures are always complete.
+    ///
+    /// # Errors
+    /// As of [`Renderer::draw`].
+    pub fn draw_resident(&self, camera: &Camera) -> Result<Rendered, Error> {
+        self.draw_waiting(camera, 1, Waiting::Never)
     }
 
     /// Draws the picture that a camera sees, `repeat` times for measuring (at least once).
@@ -56,16 +96,21 @@ impl<'a> Renderer<'a> {
     /// # Errors
     /// When the camera or the level is impossible, or a brick or table cannot be read.
     pub fn draw(&self, camera: &Camera, repeat: usize) -> Result<Rendered, Error> {
+        self.draw_waiting(camera, repeat, Waiting::Complete)
+    }
+
+    fn draw_waiting(&self, camera: &Camera, repeat: usize, waiting: Waiting) -> Result<Rendered, Error> {
         let level = choose_level(self.volume, &self.request, camera)?;
         let visible = self.visible.at(self.volume, level, &self.request, &self.transfer_function)?;
         let mut render_all = Vec::with_capacity(repeat.max(1));
-        let (first, plan_time, in_frustum) = self.draw_once(camera, level, &visible, &mut render_all)?;
-        let (residency, load_time) = self.residency();
+        let (first, plan_time, in_frustum) =
+            self.draw_once(camera, level, &visible, waiting, &mut render_all)?;
+        let (residency, load_time) = self.residency(&first);
         for _ in 1..repeat {
-            self.draw_once(camera, level, &visible, &mut render_all)?;
+            self.draw_once(camera, level, &visible, waiting, &mut render_all)?;
         }
         // What repeats went through is nobody's: the next report counts from here.
-        self.residency();
+        self.residency(&first);
         let bricks = self.brick_counts(&first, level, &visible.bricks, in_frustum);
         let mut warnings = self.warnings.clone();
         warnings.extend(left_out(&first.damaged));
@@ -75,13 +120,9 @@ impl<'a> Renderer<'a> {
         let report = FrameReport {
             volume: self.volume.desc().clone(),
             not_finite: self.volume.source.not_finite(),
-            backend: "cpu",
-            adapter: format!(
-                "CPU, {}, {} threads",
-                self.instruction_set().name(),
-                self.volume.threads.current_num_threads()
-            ),
-            pass: "layers",
+            backend: self.executor.backend(),
+            adapter: self.executor.adapter(self.volume),
+            pass: self.executor.pass(&self.request),
             mode: self.request.settings.mode.name(),
             size: self.request.size,
             level,
@@ -91,8 +132,8 @@ impl<'a> Renderer<'a> {
             beta: self.request.nearly_empty.beta,
             bricks,
             residency,
-            samples: Some(first.samples),
-            complete: first.damaged.is_empty(),
+            samples: first.samples,
+            complete: first.complete,
             time_ms: StageTimes {
                 open: milliseconds(self.volume.open_time),
                 tables: milliseconds(self.tables_time + self.visible.time()),
@@ -116,8 +157,9 @@ impl<'a> Renderer<'a> {
         camera: &Camera,
         level: u32,
         visible: &VisibleLevel,
+        waiting: Waiting,
         render_all: &mut Vec<f64>,
-    ) -> Result<(CpuFrame, Duration, usize), Error> {
+    ) -> Result<(Drawn, Duration, usize), Error> {
         let start = Instant::now();
         let size = UVec2::from_array(self.request.size);
         let rays = FrameRays::new(&self.volume.desc().level(level), camera, size, self.request.step_voxels)
@@ -125,27 +167,22 @@ impl<'a> Renderer<'a> {
         let source = &self.volume.source;
         let plan = FramePlan::new(level, &source.grid(level), &rays, &visible.bricks.bricks);
         let plan_time = start.elapsed();
-        let scene = CpuScene {
-            rays: &rays,
-            plan: &plan,
-            transfer_function: &self.transfer_function,
-            settings: self.request.settings,
-            shown_cells: &visible.cells,
-            allow_damaged: self.request.allow_damaged,
-        };
-        let drawn =
-            self.volume.threads.install(|| glassbrick_cpu::draw(source, &scene, self.instruction_set()))?;
+        let drawn = self.executor.draw(
+            self.volume,
+            &self.request,
+            &self.transfer_function,
+            &rays,
+            &plan,
+            visible,
+            waiting,
+        )?;
         render_all.push(start.elapsed().as_secs_f64() * 1e3);
         Ok((drawn, plan_time, plan.bricks()))
     }
 
-    fn instruction_set(&self) -> InstructionSet {
-        self.request.instruction_set.unwrap_or_else(InstructionSet::best)
-    }
-
     fn brick_counts(
         &self,
-        drawn: &CpuFrame,
+        drawn: &Drawn,
         level: u32,
         visible: &VisibleBricks,
         in_frustum: usize,
@@ -157,18 +194,18 @@ impl<'a> Renderer<'a> {
             in_frustum,
             occluded: drawn.occluded,
             rendered: drawn.rendered,
-            boundary_pinned: 0,
+            boundary_pinned: self.boundary_pinned.load(Ordering::Relaxed),
             damaged: drawn.damaged.len(),
         }
     }
 
     /// What went through memory since the last report, and how long threads waited for bricks.
-    fn residency(&self) -> (ResidencyCounts, Duration) {
+    fn residency(&self, drawn: &Drawn) -> (ResidencyCounts, Duration) {
         let now =
             Counters { cache: self.volume.source.counts(), bytes_read: self.volume.source.bytes_read() };
         let mut reported = self.volume.reported.lock().expect("nothing panics while it is held");
         let before = std::mem::replace(&mut *reported, now);
-        let counts = ResidencyCounts {
+        let in_ram = ResidencyCounts {
             budget_bytes: now.cache.budget_bytes,
             peak_bytes: now.cache.peak_bytes,
             hits: now.cache.hits - before.cache.hits,
@@ -178,6 +215,9 @@ impl<'a> Renderer<'a> {
             evictions: now.cache.evictions - before.cache.evictions,
             bytes_read: now.bytes_read - before.bytes_read,
         };
+        let counts = drawn
+            .residency
+            .map_or(in_ram, |on_gpu| ResidencyCounts { bytes_read: in_ram.bytes_read, ..on_gpu });
         (counts, now.cache.load_time - before.cache.load_time)
     }
 

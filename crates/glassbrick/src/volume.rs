@@ -25,7 +25,7 @@ pub struct OpenSettings {
 
 /// A volume that is ready to be drawn.
 pub struct Volume {
-    pub(crate) source: CachedSource,
+    pub(crate) source: Arc<CachedSource>,
     pub(crate) threads: Arc<ThreadPool>,
     pub(crate) opened_at: Instant,
     pub(crate) open_time: Duration,
@@ -93,7 +93,7 @@ impl Volume {
     ) -> Result<Self, Error> {
         let budget_bytes = settings.memory_bytes.unwrap_or_else(default_memory_bytes);
         let open_time = start.elapsed().saturating_sub(scan_time);
-        let source = CachedSource::new(source, budget_bytes, threads.current_num_threads())?;
+        let source = Arc::new(CachedSource::new(source, budget_bytes, threads.current_num_threads())?);
         let reported = Mutex::default();
         Ok(Self {
             source,
@@ -130,12 +130,12 @@ impl Volume {
 
     /// The bricks that it is cut into.
     pub fn bricks(&self) -> &dyn BrickSource {
-        &self.source
+        self.source.as_ref()
     }
 
     /// Smallest and largest value, exact.
     pub fn value_range(&self) -> [f64; 2] {
-        crate::histogram::value_range(&self.source)
+        crate::histogram::value_range(self.source.as_ref())
     }
 
     /// How often values occur, estimated from a part of the voxels.

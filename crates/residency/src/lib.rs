@@ -6,6 +6,8 @@
 //! The first three are pure decisions: they depend on what they are told and never on time, so that a picture takes
 //! the same rounds whenever it is drawn.
 //!
+//! On the device, [`AtlasTextures`] are the slots, and bricks go there through a [`StagingRing`].
+//!
 //! This crate knows bricks only by [`BrickSource`](glassbrick_volume::BrickSource), and nothing of files, cameras or
 //! transfer functions.
 //!
@@ -27,6 +29,7 @@
 //! assert_eq!(rounds, 3);
 //! ```
 
+mod atlas;
 mod error;
 mod eviction_order;
 mod load_queue;
@@ -38,6 +41,7 @@ mod rounds;
 mod slots;
 mod working_set;
 
+pub use atlas::{AtlasShape, AtlasTextures, SlotPlace, StagingRing, TexelFormat, VoxelEncoding};
 pub use error::ResidencyError;
 pub use load_queue::{Loaded, Priority};
 pub use loader::Loader;

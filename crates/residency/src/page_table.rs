@@ -70,6 +70,11 @@ impl PageTable {
         self.set(brick, MISSING);
     }
 
+    /// A brick is not drawn after all.
+    pub fn leave_out(&mut self, brick: BrickId) {
+        self.set(brick, NOT_PLANNED);
+    }
+
     /// All entries, as they are uploaded.
     pub fn entries(&self) -> &[u32] {
         &self.entries

@@ -42,7 +42,7 @@ pub use footprint::{Footprints, PixelRect};
 pub use frame::Frame;
 pub use frame_plan::{FramePlan, Layer, PlannedBrick, eye_brick};
 pub use frame_report::{BrickCounts, FrameReport, ResidencyCounts, StageTimes};
-pub use rays::{FrameRays, Ray};
+pub use rays::{FrameRays, Ray, RayFan};
 pub use render_settings::{Mode, Phong, RenderSettings, Skip};
 pub use stored_type::StoredType;
 pub use transfer_function::{

@@ -41,6 +41,18 @@ pub struct Ray {
     pub step_length_mm: f32,
 }
 
+/// How the rays of a frame fan out, in f64: each of these is `middle + x·across + y·along` for a pixel whose centre is at
+/// (x, y), both from −1 to 1, x to the right and y upwards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayFan {
+    /// Position of sample number 0, in voxels: middle, across, along.
+    pub start_voxel: [DVec3; 3],
+    /// From one sample to the next, in voxels: middle, across, along.
+    pub step_voxel: [DVec3; 3],
+    /// From the picture's middle to its right and upper edge at depth 1; nothing where rays are parallel.
+    pub half_extent: [f64; 2],
+}
+
 impl Ray {
     /// Voxel coordinates of a sample. This value alone decides which brick, cell and fraction the sample has.
     pub fn sample(&self, number: u32) -> Vec3 {
@@ -102,8 +114,7 @@ impl FrameRays {
 
     /// The ray through the centre of pixel (column, row); row 0 is on top.
     pub fn ray(&self, column: u32, row: u32) -> Ray {
-        let x = 2.0 * (f64::from(column) + 0.5) / f64::from(self.size.x) - 1.0;
-        let y = 1.0 - 2.0 * (f64::from(row) + 0.5) / f64::from(self.size.y);
+        let (x, y) = (self.across(column), self.along(row));
         let aside = self.right_voxel * x + self.up_voxel * y;
         let depth_mm = (self.first_sample as f64 + 0.5) * self.step_mm;
         let (start, direction, length) = if self.perspective {
@@ -117,6 +128,37 @@ impl FrameRays {
             start: start.as_vec3(),
             step: (direction * self.step_mm).as_vec3(),
             step_length_mm: (length * self.step_mm) as f32,
+        }
+    }
+
+    /// Where a column's pixels have their centres, from −1 on the left to 1 on the right.
+    pub fn across(&self, column: u32) -> f64 {
+        2.0 * (f64::from(column) + 0.5) / f64::from(self.size.x) - 1.0
+    }
+
+    /// Where a row's pixels have their centres, from 1 on top to −1 below.
+    pub fn along(&self, row: u32) -> f64 {
+        1.0 - 2.0 * (f64::from(row) + 0.5) / f64::from(self.size.y)
+    }
+
+    /// All rays at once, for those who form them elsewhere.
+    pub fn fan(&self) -> RayFan {
+        let depth_mm = self.depth_mm(0);
+        let start = self.eye_voxel + self.forward_voxel * depth_mm;
+        let (right, up) = (self.right_voxel, self.up_voxel);
+        let step = self.forward_voxel * self.step_mm;
+        if self.perspective {
+            RayFan {
+                start_voxel: [start, right * depth_mm, up * depth_mm],
+                step_voxel: [step, right * self.step_mm, up * self.step_mm],
+                half_extent: self.half_extent,
+            }
+        } else {
+            RayFan {
+                start_voxel: [start, right, up],
+                step_voxel: [step, DVec3::ZERO, DVec3::ZERO],
+                half_extent: [0.0; 2],
+            }
         }
     }
 

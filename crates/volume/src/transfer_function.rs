@@ -127,6 +127,19 @@ impl BakedTransferFunction {
         if width > 0.0 { (BAKED_ENTRIES - 1) as f64 / width } else { 0.0 }
     }
 
+    /// The pixel of a projected value: a(v)·c(v) in linear light, with alpha a(v).
+    pub fn projected(&self, value: f64) -> [f32; 4] {
+        let last = (BAKED_ENTRIES - 1) as f64;
+        let at = ((value - self.first_value) * self.entries_per_value()).clamp(0.0, last);
+        let index = (at as usize).min(BAKED_ENTRIES - 2);
+        let fraction = (at - index as f64) as f32;
+        let mix = |a: f32, b: f32| a + fraction * (b - a);
+        let opacity = mix(self.opacity[index], self.opacity[index + 1]);
+        let [r, g, b] =
+            std::array::from_fn(|c| opacity * mix(self.color[index][c], self.color[index + 1][c]));
+        [r, g, b, opacity]
+    }
+
     /// The maximal open intervals of value on which interpolated extinction is above zero, lowest first.
     pub fn bands(&self) -> Vec<Band> {
         let shown = |entry: usize| self.extinction[entry] > 0.0;

@@ -79,6 +79,11 @@ impl VolumeDesc {
         self.world_from_voxel().inverse()
     }
 
+    /// The inverse transpose, by which surfaces' normals go from gradients per voxel to world space.
+    pub fn normal_from_gradient(&self) -> DMat3 {
+        self.world_from_voxel().matrix3.inverse().transpose()
+    }
+
     /// The smallest spacing, in mm: the length that a step of one voxel means.
     pub fn smallest_spacing_mm(&self) -> f64 {
         self.spacing_mm.min_element()

@@ -3,7 +3,7 @@ use std::time::Duration;
 use glassbrick::BrickSource;
 use serde_json::{Value, json};
 
-use super::{BACKEND_AUTO, Info, Needs};
+use super::{Info, Needs};
 
 /// What is told as one JSON object; its fields are fixed.
 pub fn json(info: &Info) -> Value {
@@ -26,7 +26,7 @@ pub fn json(info: &Info) -> Value {
         },
         "bricks": bricks(volume.bricks(), info.needs.as_ref()),
         "levels": volume.bricks().levels(),
-        "backend": { "auto": BACKEND_AUTO.0, "why": BACKEND_AUTO.1 },
+        "backend": { "auto": info.backend_auto.0, "why": info.backend_auto.1 },
         "notes": volume.notes(),
         "time_ms": {
             "open": milliseconds(info.times.open),

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use glassbrick::{Mode, Volume};
 
-use crate::job::InfoJob;
+use crate::job::{InfoJob, auto_backend};
 use crate::terminal;
 use needs::Needs;
 
@@ -19,6 +19,8 @@ pub struct Info<'a> {
     pub job: &'a InfoJob,
     pub volume: &'a Volume,
     pub needs: Option<Needs>,
+    /// What `--backend auto` draws on, and why.
+    pub backend_auto: (&'static str, String),
     pub times: Times,
 }
 
@@ -30,9 +32,6 @@ pub struct Times {
     pub tables: Duration,
     pub total: Duration,
 }
-
-/// Why `--backend auto` draws as it does.
-const BACKEND_AUTO: (&str, &str) = ("cpu", "this version has no GPU renderer");
 
 /// Opens the volume and prints what it is.
 ///
@@ -48,8 +47,9 @@ pub fn run(job: &InfoJob, start: Instant) -> Result<()> {
         None => None,
     };
     let tables = volume.scan_time() + measuring.elapsed();
+    let backend_auto = auto_backend();
     let times = Times { open, tables, total: start.elapsed() };
-    let info = Info { job, volume: &volume, needs, times };
+    let info = Info { job, volume: &volume, needs, backend_auto, times };
     let told = if job.json { serde_json::to_string_pretty(&json::json(&info))? } else { text::text(&info) };
     terminal::print(&told)
 }

@@ -1,7 +1,7 @@
 use glassbrick::Band;
 
 use super::directions::patient_direction;
-use super::{BACKEND_AUTO, Info, Needs};
+use super::{Info, Needs};
 use crate::figures::{bytes, count, number, percent, time};
 use crate::terminal::one_line;
 
@@ -61,7 +61,7 @@ fn bricks_lines(info: &Info) -> Vec<Line> {
         let codec = store.codec.name();
         lines.push(("stored", format!("from {}, codec {codec}", one_line(&store.source_format))));
     }
-    lines.push(("backend", format!("{}: {}", BACKEND_AUTO.0, BACKEND_AUTO.1)));
+    lines.push(("backend", format!("{}: {}", info.backend_auto.0, one_line(&info.backend_auto.1))));
     lines
 }
 

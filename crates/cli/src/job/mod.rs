@@ -1,6 +1,7 @@
 //! What was meant: the flags of [`args`](crate::args) put together, checked against each other, and the files of
 //! settings that they name read. Everything here is found out before the first voxel is.
 
+mod backend;
 mod info;
 mod ingest;
 mod input;
@@ -10,6 +11,7 @@ mod settings;
 mod transfer_function;
 mod viewpoint;
 
+pub use backend::{auto_backend, open_backend};
 pub use info::InfoJob;
 pub use ingest::IngestJob;
 pub use input::InputJob;

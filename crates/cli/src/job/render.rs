@@ -1,12 +1,13 @@
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 use glassbrick::{
-    Background, LevelChoice, NearlyEmpty, RenderRequest, RenderSettings, TransferFunction, check_text_file,
+    Backend, Background, DEFAULT_GPU_MEMORY_BYTES, GpuPass, LevelChoice, NearlyEmpty, RenderRequest,
+    RenderSettings, TransferFunction, check_text_file,
 };
 
 use super::output::check_nothing_read_is_overwritten;
-use super::settings::{idle_flags, render_settings};
+use super::settings::{gpu_pass, idle_flags, idle_flags_on_cpu, render_settings};
 use super::{InputJob, Output, TransferFunctionChoice, View};
 use crate::args::{BackendChoice, RenderArgs};
 use crate::usage::UsageError;
@@ -22,21 +23,23 @@ pub struct RenderJob {
     pub nearly_empty: NearlyEmpty,
     pub level: LevelChoice,
     pub allow_damaged: bool,
+    pub backend: BackendChoice,
+    pub pass: GpuPass,
+    pub gpu_memory_bytes: u64,
     pub repeat: usize,
     pub background: Background,
     pub output: Output,
     pub report: Option<PathBuf>,
     /// What the user should know of the flags, one sentence each.
     pub warnings: Vec<String>,
+    /// What the user should know of them where the CPU draws.
+    pub warnings_on_cpu: Vec<String>,
 }
 
 impl RenderJob {
     /// # Errors
     /// When flags contradict each other, or a file that is named cannot be used.
     pub fn new(args: &RenderArgs) -> Result<Self> {
-        if args.backend == BackendChoice::Gpu {
-            bail!("--backend gpu: the GPU renderer is not built in this version; use --backend cpu");
-        }
         let background = args.background.unwrap_or_default();
         let output = Output::new(&args.output, args.frames, background)?;
         check_report(args, &output)?;
@@ -50,16 +53,20 @@ impl RenderJob {
             nearly_empty: NearlyEmpty { alpha: args.alpha, beta: args.beta },
             level: args.level,
             allow_damaged: args.allow_damaged,
+            backend: args.backend,
+            pass: gpu_pass(args),
+            gpu_memory_bytes: args.gpu_memory.unwrap_or(DEFAULT_GPU_MEMORY_BYTES),
             repeat: args.repeat as usize,
             background,
             warnings: idle_flags(args, output.keeps_alpha()),
+            warnings_on_cpu: idle_flags_on_cpu(args),
             output,
             report: args.report.clone(),
         })
     }
 
-    /// What is to be drawn with a transfer function.
-    pub fn request(&self, transfer_function: TransferFunction) -> RenderRequest {
+    /// What is to be drawn with a transfer function, and on what.
+    pub fn request(&self, transfer_function: TransferFunction, backend: Backend) -> RenderRequest {
         RenderRequest {
             size: self.size,
             step_voxels: self.step_voxels,
@@ -67,6 +74,9 @@ impl RenderJob {
             nearly_empty: self.nearly_empty,
             level: self.level,
             allow_damaged: self.allow_damaged,
+            backend,
+            pass: self.pass,
+            gpu_memory_bytes: self.gpu_memory_bytes,
             ..RenderRequest::new(transfer_function)
         }
     }

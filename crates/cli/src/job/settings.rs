@@ -1,8 +1,8 @@
 //! The renderer's settings, and what of the flags does nothing.
 
-use glassbrick::{Mode, Phong, RenderSettings, Skip};
+use glassbrick::{GpuPass, Mode, Phong, RenderSettings, Skip};
 
-use crate::args::{ModeChoice, RenderArgs, ShadingChoice, SkipChoice};
+use crate::args::{ModeChoice, PassChoice, RenderArgs, ShadingChoice, SkipChoice};
 
 /// How frames are drawn.
 pub fn render_settings(args: &RenderArgs) -> RenderSettings {
@@ -26,16 +26,33 @@ pub fn render_settings(args: &RenderArgs) -> RenderSettings {
     }
 }
 
+/// How a GPU draws.
+pub fn gpu_pass(args: &RenderArgs) -> GpuPass {
+    match args.pass {
+        Some(PassChoice::Slices) => GpuPass::Slices,
+        Some(PassChoice::Raycast) | None => GpuPass::Raycast,
+    }
+}
+
 /// Flags that were given and do nothing, a sentence each.
 pub fn idle_flags(args: &RenderArgs, keeps_alpha: bool) -> Vec<String> {
-    let idle = [
-        (args.pass.is_some(), "--pass does nothing: it concerns GPUs, and the CPU draws by layers"),
-        (args.gpu_memory.is_some(), "--gpu-memory does nothing: no GPU draws; the CPU's limit is --memory"),
+    sentences([
         (
             args.shading != ShadingChoice::Off && args.mode != ModeChoice::Dvr,
             "--shading does nothing: it concerns mode dvr alone",
         ),
         (args.background.is_some() && keeps_alpha, "--background does nothing: EXR keeps its alpha"),
-    ];
+    ])
+}
+
+/// Flags that were given and do nothing where the CPU draws.
+pub fn idle_flags_on_cpu(args: &RenderArgs) -> Vec<String> {
+    sentences([
+        (args.pass.is_some(), "--pass does nothing: it concerns GPUs, and the CPU draws by layers"),
+        (args.gpu_memory.is_some(), "--gpu-memory does nothing: no GPU draws; the CPU's limit is --memory"),
+    ])
+}
+
+fn sentences(idle: [(bool, &str); 2]) -> Vec<String> {
     idle.into_iter().filter(|(is_idle, _)| *is_idle).map(|(_, what)| what.to_owned()).collect()
 }

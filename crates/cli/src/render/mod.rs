@@ -4,12 +4,13 @@ mod files;
 mod report;
 mod summary;
 
+use std::thread;
 use std::time::Instant;
 
-use anyhow::Result;
-use glassbrick::{FrameReport, Renderer, write_text_file};
+use anyhow::{Result, anyhow};
+use glassbrick::{Backend, FrameReport, Renderer, write_text_file};
 
-use crate::job::{RenderJob, turned};
+use crate::job::{RenderJob, open_backend, turned};
 use crate::progress::Progress;
 use crate::terminal;
 use files::PictureFiles;
@@ -29,12 +30,21 @@ pub fn run(job: &RenderJob, start: Instant) -> Result<()> {
 
 /// Draws and writes every frame; returns their reports.
 fn draw(job: &RenderJob, start: Instant) -> Result<Vec<FrameReport>> {
-    let volume = job.input.open()?;
+    // A GPU's driver takes its time to start: meanwhile the volume is opened.
+    let choice = job.backend;
+    let opening = thread::spawn(move || open_backend(choice));
+    let volume = job.input.open();
+    let backend = opening.join().map_err(|_| anyhow!("the GPU's driver failed while it started"))??;
+    let volume = volume?;
     let progress = Progress::start("drawing");
     let transfer_function = job.transfer_function.for_volume(&volume, job.settings.mode)?;
     let camera = job.view.camera(volume.desc());
-    let renderer = Renderer::new(&volume, job.request(transfer_function))?;
+    let warnings_on_cpu: &[String] = if backend == Backend::Cpu { &job.warnings_on_cpu } else { &[] };
+    let renderer = Renderer::new(&volume, job.request(transfer_function, backend.clone()))?;
     let frames = job.output.frames();
+    if frames > 1 {
+        renderer.pin_boundary(&camera)?;
+    }
     let mut files = PictureFiles::create(job)?;
     let mut reports = Vec::new();
     for frame in 0..frames {
@@ -42,7 +52,7 @@ fn draw(job: &RenderJob, start: Instant) -> Result<Vec<FrameReport>> {
             progress.pieces(frame.into(), frames.into());
         }
         let mut drawn = renderer.draw(&turned(&camera, frame, frames), job.repeat)?;
-        drawn.report.warnings.extend_from_slice(&job.warnings);
+        drawn.report.warnings.extend(job.warnings.iter().chain(warnings_on_cpu).cloned());
         let writing = Instant::now();
         files.write(&drawn)?;
         drawn.report.time_ms.encode = milliseconds(writing);

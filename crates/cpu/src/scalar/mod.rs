@@ -6,8 +6,8 @@ mod look_up;
 mod projector;
 mod sampler;
 
-use glam::{Mat3, Vec3};
-use glassbrick_volume::{BrickSource, FrameRays, Mode, PixelRect, Ray, ReadError, Skip, VolumeDesc, Voxels};
+use glam::Vec3;
+use glassbrick_volume::{BrickSource, FrameRays, Mode, PixelRect, Ray, ReadError, Skip, Voxels};
 
 use crate::executor::{CpuFrame, CpuScene, draw_with};
 use crate::kernel::{BrickView, Kernel, overlap};
@@ -26,7 +26,7 @@ pub fn draw(source: &dyn BrickSource, scene: &CpuScene) -> Result<CpuFrame, Read
         Mode::Dvr => {
             let light = scene.settings.shading.map(|phong| Headlight {
                 phong,
-                normal_from_gradient: normal_from_gradient(desc, scene.plan.level),
+                normal_from_gradient: desc.level(scene.plan.level).desc.normal_from_gradient().as_mat3(),
             });
             let projector = Dvr { look_up, opacity_cutoff: scene.settings.effective_cutoff(), light };
             draw_with(&Scalar { projector, skip, sample_count }, source, scene)
@@ -39,11 +39,6 @@ pub fn draw(source: &dyn BrickSource, scene: &CpuScene) -> Result<CpuFrame, Read
         }
         Mode::Mean => draw_with(&Scalar { projector: Mean { look_up }, skip, sample_count }, source, scene),
     }
-}
-
-/// The inverse transpose, by which surfaces' normals go from a level's voxels to world space.
-pub fn normal_from_gradient(desc: &VolumeDesc, level: u32) -> Mat3 {
-    desc.level(level).desc.world_from_voxel().matrix3.inverse().transpose().as_mat3()
 }
 
 /// One way to form pixels.

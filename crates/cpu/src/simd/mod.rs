@@ -36,7 +36,7 @@ use glassbrick_volume::{BrickSource, FrameRays, Mode, PixelRect, ReadError, Skip
 
 use crate::executor::{CpuFrame, CpuScene, draw_with};
 use crate::kernel::{BrickView, Kernel};
-use crate::scalar::{LookUp, normal_from_gradient};
+use crate::scalar::LookUp;
 use brick::LaneBrick;
 use dvr::{LaneDvr, LaneHeadlight};
 use extremum::LaneExtremum;
@@ -72,7 +72,7 @@ pub fn draw(
         Mode::Dvr => {
             let light = settings.shading.map(|phong| LaneHeadlight {
                 phong,
-                normal_from_gradient: normal_from_gradient(desc, scene.plan.level),
+                normal_from_gradient: desc.level(scene.plan.level).desc.normal_from_gradient().as_mat3(),
             });
             let projection = LaneDvr {
                 look_up: LaneLookUp::new(baked, rescale),

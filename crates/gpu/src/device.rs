@@ -1,0 +1,114 @@
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::adapter::{choose, described, is_hardware};
+use crate::filter_probe::filters_exactly;
+use crate::tier::Tier;
+use crate::{AdapterChoice, GpuError};
+
+/// An opened GPU.
+pub struct GpuDevice {
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+    pub tier: Tier,
+    /// As reports name it.
+    pub adapter: String,
+    trouble: Arc<Mutex<Trouble>>,
+}
+
+/// What a driver said that no call returned.
+#[derive(Default)]
+struct Trouble {
+    lost: Option<String>,
+    error: Option<String>,
+}
+
+impl GpuDevice {
+    /// Opens an adapter.
+    ///
+    /// # Errors
+    /// When there is none, or it cannot draw volumes.
+    pub fn open(choice: AdapterChoice) -> Result<Self, GpuError> {
+        let adapter = choose(flags(), choice)?;
+        let info = adapter.get_info();
+        let name = described(&info);
+        Tier::check(&adapter, &name)?;
+        let request = adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("glassbrick"),
+            required_features: Tier::features(&adapter),
+            required_limits: adapter.limits(),
+            experimental_features: wgpu::ExperimentalFeatures::disabled(),
+            memory_hints: wgpu::MemoryHints::Performance,
+            trace: wgpu::Trace::Off,
+        });
+        let (device, queue) = pollster::block_on(request)
+            .map_err(|error| GpuError::NoDevice { adapter: name.clone(), what: error.to_string() })?;
+        let trouble = watch(&device);
+        let tier = Tier::new(&info, &device, |format| filters_exactly(&device, &queue, format));
+        Ok(Self { device, queue, tier, adapter: name, trouble })
+    }
+
+    /// Whether this machine has a GPU of its own, and which; no device is opened.
+    pub fn hardware() -> Option<String> {
+        let adapter = choose(flags(), AdapterChoice::Hardware).ok()?;
+        let info = adapter.get_info();
+        let name = described(&info);
+        (is_hardware(&info) && Tier::check(&adapter, &name).is_ok()).then_some(name)
+    }
+
+    /// Waits until the device has done all that it was given.
+    ///
+    /// # Errors
+    /// When the device is lost, or what it was given was wrong.
+    pub fn wait(&self) -> Result<(), GpuError> {
+        loop {
+            match self.device.poll(wgpu::PollType::wait_indefinitely()) {
+                // OpenGL's driver gives up after two seconds; the work goes on.
+                Err(wgpu::PollError::Timeout) => self.check()?,
+                Err(error) => return Err(GpuError::Driver { what: error.to_string() }),
+                Ok(_) => return self.check(),
+            }
+        }
+    }
+
+    /// Whether the device is well.
+    ///
+    /// # Errors
+    /// When it is lost, or what it was given was wrong.
+    pub fn check(&self) -> Result<(), GpuError> {
+        let mut trouble = self.trouble.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(what) = &trouble.lost {
+            return Err(GpuError::Lost { what: what.clone() });
+        }
+        match trouble.error.take() {
+            Some(what) => Err(GpuError::Driver { what }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// What wgpu checks: everything where our own code is checked too.
+fn flags() -> wgpu::InstanceFlags {
+    wgpu::InstanceFlags::from_build_config().with_env()
+}
+
+/// Keeps what the driver says: the first error counts, those that follow from it do not.
+fn watch(device: &wgpu::Device) -> Arc<Mutex<Trouble>> {
+    let trouble = Arc::new(Mutex::new(Trouble::default()));
+    let for_errors = Arc::clone(&trouble);
+    device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+        let mut trouble = for_errors.lock().unwrap_or_else(PoisonError::into_inner);
+        trouble.error.get_or_insert_with(|| one_line(&error.to_string()));
+    }));
+    let for_loss = Arc::clone(&trouble);
+    device.set_device_lost_callback(move |reason, message| {
+        if reason != wgpu::DeviceLostReason::Destroyed {
+            let mut trouble = for_loss.lock().unwrap_or_else(PoisonError::into_inner);
+            trouble.lost.get_or_insert_with(|| one_line(&message));
+        }
+    });
+    trouble
+}
+
+fn one_line(message: &str) -> String {
+    message.split_whitespace().collect::<Vec<_>>().join(" ")
+}

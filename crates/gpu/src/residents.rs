@@ -1,0 +1,308 @@
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use glassbrick_residency::{
+    AtlasShape, AtlasTextures, Load, Loaded, Loader, Priority, Round, SlotId, StagingRing, VoxelEncoding,
+    WorkingSet, WorkingSetCounts, next_round,
+};
+use glassbrick_volume::{Brick, BrickId, BrickSource};
+
+use crate::tier::TexelChoice;
+use crate::{GpuDevice, GpuError};
+
+/// The bricks that are on the device, and the way there.
+pub struct Residents {
+    pub set: WorkingSet,
+    pub textures: AtlasTextures,
+    pub encoding: VoxelEncoding,
+    loader: Loader,
+    staging: StagingRing,
+    /// Slots that the budget, or the device's memory, leaves room for.
+    most_slots: u32,
+    /// Whether there is one texture, which is made anew when more is needed.
+    grows: bool,
+    counts: UploadCounts,
+    slot_counts: WorkingSetCounts,
+    peak_bytes: u64,
+}
+
+/// What went to the device.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct UploadCounts {
+    pub uploads: u64,
+    pub bytes: u64,
+}
+
+/// A part of what was wanted, ready to be drawn.
+pub struct LoadedRound {
+    /// How many of the wanted bricks are resident or damaged, from the first on.
+    pub taken: usize,
+    pub loads: Vec<Load>,
+    /// Bricks that could not be read, and why.
+    pub damaged: Vec<(BrickId, String)>,
+}
+
+impl Residents {
+    /// Room for bricks of a source in at most `budget_bytes` of the device's memory.
+    ///
+    /// # Errors
+    /// When not even one atlas texture has room, or bricks are too large for the device's textures.
+    pub fn new(
+        device: &GpuDevice,
+        source: Arc<dyn BrickSource>,
+        texels: TexelChoice,
+        min_stored: f32,
+        budget_bytes: u64,
+        threads: usize,
+    ) -> Result<Self, GpuError> {
+        let brick_edge = source.grid(0).layout.edge;
+        let tier = &device.tier;
+        let one_cube = AtlasShape::new(brick_edge, 1);
+        if one_cube.cube_edge > tier.largest_volume_texture {
+            return Err(GpuError::BrickTooLarge { brick_edge, largest: tier.largest_volume_texture });
+        }
+        let cube_bytes = one_cube.cube_voxels() * u64::from(texels.format.bytes());
+        let most_cubes = one_cube.most_cubes(tier.textures, tier.largest_volume_texture);
+        let cubes = (budget_bytes / cube_bytes).min(most_cubes.into()) as u32;
+        if cubes == 0 {
+            return Err(GpuError::BudgetTooSmall { budget_bytes, needed_bytes: cube_bytes });
+        }
+        let grows = tier.textures == 1;
+        let per_texture = if grows { 1 } else { cubes.div_ceil(tier.textures as u32).next_power_of_two() };
+        // A texture that grows doubles: what is not a power of two of cubes would go beyond the budget.
+        let cubes = if grows { 1 << cubes.ilog2() } else { cubes / per_texture * per_texture };
+        let shape = AtlasShape::new(brick_edge, per_texture);
+        let most_slots = cubes * shape.slots_per_cube();
+        let stored_type = source.desc().stored_type;
+        let mut residents = Self {
+            set: WorkingSet::new(if grows { shape.slots_per_texture() } else { most_slots }),
+            textures: AtlasTextures::new(shape, texels.format),
+            encoding: VoxelEncoding::new(texels.format, stored_type, min_stored),
+            loader: Loader::new(source, threads, threads)?,
+            staging: StagingRing::new(brick_edge, texels.format.bytes()),
+            most_slots,
+            grows,
+            counts: UploadCounts::default(),
+            slot_counts: WorkingSetCounts::default(),
+            peak_bytes: 0,
+        };
+        residents.make(device, 1)?;
+        Ok(residents)
+    }
+
+    /// Slots that the budget, or the device's memory, leaves room for.
+    pub fn slots(&self) -> usize {
+        self.most_slots as usize
+    }
+
+    /// Makes room for a frame of so many bricks, as far as the budget goes. A texture that grows loses its bricks.
+    ///
+    /// # Errors
+    /// When the device has no memory at all.
+    pub fn reserve(&mut self, device: &GpuDevice, bricks: usize) -> Result<(), GpuError> {
+        if !self.grows || bricks <= self.set.slots() as usize || self.set.slots() == self.most_slots {
+            return Ok(());
+        }
+        let per_cube = self.textures.shape.slots_per_cube();
+        let cubes = (bricks as u64).div_ceil(per_cube.into()).next_power_of_two();
+        let mut cubes = cubes.min(u64::from(self.most_slots / per_cube)) as u32;
+        self.keep_counts();
+        let format = self.textures.format;
+        loop {
+            let shape = AtlasShape::new(self.textures.shape.brick_edge, cubes);
+            // The smaller texture goes first, so that the two together never go beyond the budget.
+            self.textures = AtlasTextures::new(shape, format);
+            self.set = WorkingSet::new(shape.slots_per_texture());
+            if pollster::block_on(self.textures.make(&device.device, 1)) == 1 {
+                self.peak_bytes = self.peak_bytes.max(self.textures.bytes());
+                return Ok(());
+            }
+            self.most_slots = (cubes / 2).max(1) * per_cube;
+            if cubes == 1 {
+                return Err(self.out_of_memory());
+            }
+            cubes /= 2;
+        }
+    }
+
+    /// Brings as many of the wanted bricks as there is room for, from the first on.
+    ///
+    /// # Errors
+    /// When a brick cannot be read and may not be left out, or the device fails.
+    pub fn load_round(
+        &mut self,
+        device: &GpuDevice,
+        wanted: &[BrickId],
+        most_loads: usize,
+        allow_damaged: bool,
+    ) -> Result<LoadedRound, GpuError> {
+        let round = self.plan_round(device, wanted, most_loads)?;
+        let mut slots: HashMap<BrickId, SlotId> =
+            round.loads.iter().map(|load| (load.brick, load.slot)).collect();
+        let bricks: Vec<BrickId> = round.loads.iter().map(|load| load.brick).collect();
+        self.loader.request(Priority::NeededNow, &bricks);
+        let mut damaged = Vec::new();
+        let mut encoder = device.device.create_command_encoder(&Default::default());
+        while !slots.is_empty() {
+            let Some(loaded) = self.loader.wait() else { break };
+            let Some(slot) = slots.remove(&loaded.brick) else { continue };
+            match loaded.voxels {
+                Ok(voxels) => encoder = self.upload(device, encoder, slot, &voxels)?,
+                Err(error) => {
+                    self.set.remove(loaded.brick);
+                    if !allow_damaged {
+                        self.forget(slots.into_keys());
+                        return Err(error.into());
+                    }
+                    damaged.push((loaded.brick, error.to_string()));
+                }
+            }
+        }
+        self.submit(device, encoder);
+        Ok(LoadedRound { taken: round.taken, loads: round.loads, damaged })
+    }
+
+    /// Plans a round and makes the textures that it needs. Where the device's memory ends before, the round is made of
+    /// what there is.
+    fn plan_round(
+        &mut self,
+        device: &GpuDevice,
+        wanted: &[BrickId],
+        most_loads: usize,
+    ) -> Result<Round, GpuError> {
+        loop {
+            let round = next_round(&mut self.set, wanted, most_loads);
+            let texture = |load: &Load| self.textures.shape.place(load.slot).texture as usize + 1;
+            let textures = round.loads.iter().map(texture).max().unwrap_or(0);
+            if self.make(device, textures)? >= textures {
+                return Ok(round);
+            }
+        }
+    }
+
+    /// Lets bricks go that were given slots and did not come.
+    fn forget(&mut self, bricks: impl Iterator<Item = BrickId>) {
+        for brick in bricks {
+            self.set.remove(brick);
+        }
+        self.loader.request(Priority::NeededNow, &[]);
+    }
+
+    /// Asks for bricks without waiting: those needed now, and then those pinned.
+    pub fn ask(&mut self, needed: &[BrickId]) {
+        let is_missing = |brick: &&BrickId| self.set.slot_of(**brick).is_none();
+        let needed: Vec<BrickId> = needed.iter().filter(is_missing).copied().collect();
+        self.loader.request(Priority::NeededNow, &needed);
+        let pinned: Vec<BrickId> = self.set.missing_pinned().collect();
+        self.loader.request(Priority::Boundary, &pinned);
+    }
+
+    /// Uploads what has come since, at most `most_uploads` bricks; returns bricks that could not be read, and why.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn take_loaded(
+        &mut self,
+        device: &GpuDevice,
+        most_uploads: usize,
+    ) -> Result<Vec<(BrickId, String)>, GpuError> {
+        // Gives back the buffers whose copies are done.
+        let _ = device.device.poll(wgpu::PollType::Poll);
+        let mut damaged = Vec::new();
+        let mut encoder = device.device.create_command_encoder(&Default::default());
+        for _ in 0..most_uploads {
+            if !self.staging.has_room() {
+                break;
+            }
+            let Some(Loaded { brick, voxels }) = self.loader.take() else { break };
+            match voxels {
+                Err(error) => damaged.push((brick, error.to_string())),
+                Ok(voxels) => {
+                    if let Some(slot) = self.room_for(device, brick)? {
+                        encoder = self.upload(device, encoder, slot, &voxels)?;
+                    }
+                }
+            }
+        }
+        self.submit(device, encoder);
+        self.set.end_round();
+        Ok(damaged)
+    }
+
+    /// A slot for a brick that is not resident, in a texture that is made.
+    fn room_for(&mut self, device: &GpuDevice, brick: BrickId) -> Result<Option<SlotId>, GpuError> {
+        if self.set.slot_of(brick).is_some() {
+            return Ok(None);
+        }
+        let Some(admitted) = self.set.admit(brick) else { return Ok(None) };
+        let textures = self.textures.shape.place(admitted.slot).texture as usize + 1;
+        Ok((self.make(device, textures)? >= textures).then_some(admitted.slot))
+    }
+
+    /// What happened in the slots, and what was uploaded, since this was asked last.
+    pub fn take_counts(&mut self) -> (WorkingSetCounts, UploadCounts) {
+        self.keep_counts();
+        (std::mem::take(&mut self.slot_counts), std::mem::take(&mut self.counts))
+    }
+
+    fn keep_counts(&mut self) {
+        let WorkingSetCounts { hits, misses, evictions } = self.set.take_counts();
+        self.slot_counts.hits += hits;
+        self.slot_counts.misses += misses;
+        self.slot_counts.evictions += evictions;
+    }
+
+    /// Bytes of the textures that there were at once, at most.
+    pub fn peak_bytes(&self) -> u64 {
+        self.peak_bytes
+    }
+
+    fn upload(
+        &mut self,
+        device: &GpuDevice,
+        mut encoder: wgpu::CommandEncoder,
+        slot: SlotId,
+        voxels: &Arc<Brick>,
+    ) -> Result<wgpu::CommandEncoder, GpuError> {
+        let place = self.textures.shape.place(slot);
+        while !self.staging.has_room() {
+            self.submit(device, encoder);
+            device.wait()?;
+            encoder = device.device.create_command_encoder(&Default::default());
+        }
+        let texture = &self.textures.textures()[place.texture as usize];
+        self.staging
+            .write(&device.device, &mut encoder, voxels, &self.encoding, texture, place)
+            .map_err(|error| GpuError::Driver { what: error.to_string() })?;
+        self.counts.uploads += 1;
+        self.counts.bytes +=
+            u64::from(self.textures.shape.brick_edge).pow(3) * u64::from(self.textures.format.bytes());
+        Ok(encoder)
+    }
+
+    fn submit(&mut self, device: &GpuDevice, encoder: wgpu::CommandEncoder) {
+        device.queue.submit([encoder.finish()]);
+        self.staging.submitted();
+    }
+
+    /// Makes textures up to a number; returns how many there are. Where the device's memory ends before, slots end there.
+    fn make(&mut self, device: &GpuDevice, count: usize) -> Result<usize, GpuError> {
+        if self.textures.textures().len() >= count {
+            return Ok(self.textures.textures().len());
+        }
+        let made = pollster::block_on(self.textures.make(&device.device, count));
+        self.peak_bytes = self.peak_bytes.max(self.textures.bytes());
+        if made == 0 {
+            return Err(self.out_of_memory());
+        }
+        if made < count {
+            self.most_slots = made as u32 * self.textures.shape.slots_per_texture();
+            self.set.limit(self.most_slots);
+        }
+        Ok(made)
+    }
+
+    fn out_of_memory(&self) -> GpuError {
+        GpuError::OutOfMemory { what: "an atlas texture", needed_bytes: self.textures.texture_bytes() }
+    }
+}
