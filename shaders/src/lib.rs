@@ -65,24 +65,36 @@ pub enum Pass {
     FilterProbe,
 }
 
+impl Pass {
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Raycast { .. } => "raycast",
+            Self::Slices { .. } => "slices",
+            Self::Boxes { .. } => "boxes",
+            Self::Visible => "visible",
+            Self::Under => "under",
+            Self::Opaque => "opaque",
+            Self::FilterProbe => "filter_probe",
+        }
+    }
+}
+
 /// The WGSL of a pass.
 pub fn wgsl(pass: Pass) -> &'static str {
     let flag = |is_set: bool, name: &'static str| is_set.then_some(name);
-    let (name, defined): (&str, Vec<&str>) = match pass {
+    let defined: Vec<&str> = match pass {
         Pass::Raycast { pixels, filters, many_textures } => {
             let flags = [flag(filters, "FILTERS"), flag(many_textures, "MANY_TEXTURES")];
-            ("raycast", pixels.defined().iter().copied().chain(flags.into_iter().flatten()).collect())
+            pixels.defined().iter().copied().chain(flags.into_iter().flatten()).collect()
         }
         Pass::Slices { pixels, filters } => {
-            ("slices", pixels.defined().iter().copied().chain(flag(filters, "FILTERS")).collect())
+            pixels.defined().iter().copied().chain(flag(filters, "FILTERS")).collect()
         }
-        Pass::Boxes { ranked } => ("boxes", flag(ranked, "EXTREMUM").into_iter().collect()),
-        Pass::Visible => ("visible", Vec::new()),
-        Pass::Under => ("under", Vec::new()),
-        Pass::Opaque => ("opaque", Vec::new()),
-        Pass::FilterProbe => ("filter_probe", Vec::new()),
+        Pass::Boxes { ranked } => flag(ranked, "EXTREMUM").into_iter().collect(),
+        Pass::Visible | Pass::Under | Pass::Opaque | Pass::FilterProbe => Vec::new(),
     };
-    let found = VARIANTS.iter().find(|(pass, variant, _)| *pass == name && *variant == defined);
+    let found = VARIANTS.iter().find(|(name, variant, _)| *name == pass.name() && *variant == defined);
     found.map(|&(_, _, wgsl)| wgsl).expect("the build composes every variant that a pass has")
 }
 

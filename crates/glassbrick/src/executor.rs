@@ -28,6 +28,7 @@ pub enum Waiting {
 /// A finished frame, whatever drew it.
 pub struct Drawn {
     pub frame: Frame,
+    pub pass: &'static str,
     pub samples: Option<u64>,
     pub occluded: usize,
     pub rendered: usize,
@@ -63,13 +64,6 @@ impl Executor {
         }
     }
 
-    pub fn pass(&self, request: &RenderRequest) -> &'static str {
-        match self {
-            Self::Cpu(_) => "layers",
-            Self::Gpu { .. } => request.pass.name(),
-        }
-    }
-
     #[expect(
         clippy::too_many_arguments,
         reason = "a frame brings a volume, a request, rays and a plan together"
@@ -98,6 +92,7 @@ impl Executor {
                 let drawn = volume.threads.install(|| glassbrick_cpu::draw(source, &scene, *set))?;
                 Ok(Drawn {
                     frame: drawn.frame,
+                    pass: "layers",
                     samples: Some(drawn.samples),
                     occluded: drawn.occluded,
                     rendered: drawn.rendered,
@@ -151,6 +146,7 @@ fn of_gpu(drawn: GpuFrame, budget_bytes: u64) -> Drawn {
     };
     Drawn {
         frame: drawn.frame,
+        pass: drawn.pass.name(),
         samples: drawn.samples,
         occluded: drawn.occluded,
         rendered: drawn.rendered,

@@ -122,7 +122,7 @@ impl<'a> Renderer<'a> {
             not_finite: self.volume.source.not_finite(),
             backend: self.executor.backend(),
             adapter: self.executor.adapter(self.volume),
-            pass: self.executor.pass(&self.request),
+            pass: first.pass,
             mode: self.request.settings.mode.name(),
             size: self.request.size,
             level,

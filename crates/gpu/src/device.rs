@@ -1,4 +1,7 @@
-use std::sync::{Arc, Mutex, PoisonError};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use glassbrick_shaders::{Pass, wgsl};
 
 use crate::adapter::{choose, described, is_hardware};
 use crate::filter_probe::filters_exactly;
@@ -13,6 +16,14 @@ pub struct GpuDevice {
     /// As reports name it.
     pub adapter: String,
     trouble: Arc<Mutex<Trouble>>,
+    pipelines: Mutex<Pipelines>,
+}
+
+/// Pipelines that were made, by pass and, for those that draw, by what they draw into.
+#[derive(Default)]
+struct Pipelines {
+    compute: HashMap<Pass, wgpu::ComputePipeline>,
+    render: HashMap<(Pass, Option<wgpu::TextureFormat>), wgpu::RenderPipeline>,
 }
 
 /// What a driver said that no call returned.
@@ -44,7 +55,7 @@ impl GpuDevice {
             .map_err(|error| GpuError::NoDevice { adapter: name.clone(), what: error.to_string() })?;
         let trouble = watch(&device);
         let tier = Tier::new(&info, &device, |format| filters_exactly(&device, &queue, format));
-        Ok(Self { device, queue, tier, adapter: name, trouble })
+        Ok(Self { device, queue, tier, adapter: name, trouble, pipelines: Mutex::default() })
     }
 
     /// Whether this machine has a GPU of its own, and which; no device is opened.
@@ -53,6 +64,57 @@ impl GpuDevice {
         let info = adapter.get_info();
         let name = described(&info);
         (is_hardware(&info) && Tier::check(&adapter, &name).is_ok()).then_some(name)
+    }
+
+    /// A pass that computes. Layouts of bindings follow from the pass and the device alone.
+    pub fn compute_pipeline(
+        &self,
+        pass: Pass,
+        groups: &[Option<&wgpu::BindGroupLayout>],
+    ) -> wgpu::ComputePipeline {
+        let make = || {
+            let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(pass.name()),
+                bind_group_layouts: groups,
+                immediate_size: 0,
+            });
+            self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(pass.name()),
+                layout: Some(&layout),
+                module: &self.module(pass),
+                entry_point: None,
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            })
+        };
+        self.pipelines().compute.entry(pass).or_insert_with(make).clone()
+    }
+
+    /// A pass that draws into a format, as `make` makes it.
+    pub fn render_pipeline(
+        &self,
+        pass: Pass,
+        format: Option<wgpu::TextureFormat>,
+        make: impl FnOnce() -> wgpu::RenderPipeline,
+    ) -> wgpu::RenderPipeline {
+        self.pipelines().render.entry((pass, format)).or_insert_with(make).clone()
+    }
+
+    /// The shader of a pass.
+    pub fn module(&self, pass: Pass) -> wgpu::ShaderModule {
+        self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(pass.name()),
+            source: wgpu::ShaderSource::Wgsl(wgsl(pass).into()),
+        })
+    }
+
+    /// Bytes from one part of a uniform buffer to the next, for parts of `bytes`.
+    pub fn uniform_stride(&self, bytes: usize) -> u32 {
+        (bytes as u32).next_multiple_of(self.device.limits().min_uniform_buffer_offset_alignment)
+    }
+
+    fn pipelines(&self) -> MutexGuard<'_, Pipelines> {
+        self.pipelines.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Waits until the device has done all that it was given.

@@ -1,9 +1,12 @@
 use glam::{UVec2, UVec3, Vec3};
 use glassbrick_residency::{AtlasShape, VoxelEncoding};
-use glassbrick_shaders::Frame;
-use glassbrick_volume::{BrickGrid, Mode, Phong, PixelRect, Skip, VolumeDesc};
+use glassbrick_shaders::{Frame, Pixels};
+use glassbrick_volume::{BrickGrid, BrickRange, Mode, Phong, PixelRect, Skip, VolumeDesc};
 
-use crate::GpuScene;
+use crate::atlas_bindings::AtlasBindings;
+use crate::shared_buffers::SharedBuffers;
+use crate::waiting::Waiting;
+use crate::{GpuDevice, GpuScene};
 
 /// The volume's side of a frame.
 pub struct Level<'a> {
@@ -15,6 +18,18 @@ pub struct Level<'a> {
     pub atlas: AtlasShape,
 }
 
+/// What the tiles of a frame have in common.
+pub struct FrameParts<'a> {
+    pub device: &'a GpuDevice,
+    pub shared: &'a SharedBuffers,
+    pub atlas: &'a AtlasBindings,
+    pub scene: &'a GpuScene<'a>,
+    pub level: &'a Level<'a>,
+    pub ranges: &'a [BrickRange],
+    pub pixels: Pixels,
+    pub waiting: Waiting,
+}
+
 /// 1 where projections look for the largest stored value, −1 for the smallest: a negative slope turns the largest value
 /// into the smallest stored one.
 pub fn sign(mode: Mode, desc: &VolumeDesc) -> f32 {
@@ -22,7 +37,8 @@ pub fn sign(mode: Mode, desc: &VolumeDesc) -> f32 {
 }
 
 /// What shaders know of a tile of a frame.
-pub fn frame_uniform(scene: &GpuScene, level: &Level, tile: &PixelRect, passes_missing: bool) -> Frame {
+pub fn frame_uniform(parts: &FrameParts, tile: &PixelRect) -> Frame {
+    let (scene, level) = (parts.scene, parts.level);
     let (rays, grid, baked) = (scene.rays, &level.grid, scene.transfer_function);
     let rescale = level.desc.rescale;
     let [volume_low, _] = grid.owned_box(UVec3::ZERO);
@@ -38,7 +54,7 @@ pub fn frame_uniform(scene: &GpuScene, level: &Level, tile: &PixelRect, passes_m
         core: grid.layout.core(),
         halo: grid.layout.halo,
         grid_counts: grid.counts.to_array(),
-        passes_missing: passes_missing.into(),
+        passes_missing: (parts.waiting == Waiting::Never).into(),
         volume_low: volume_low.to_array(),
         opacity_cutoff: scene.settings.effective_cutoff().min(f32::MAX),
         volume_high: volume_high.to_array(),

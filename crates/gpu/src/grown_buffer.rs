@@ -53,6 +53,15 @@ impl GrownBuffer {
         self.buffer.as_ref().expect("a buffer is grown before it is used")
     }
 
+    /// The first part, of which draws take others by offsets.
+    pub fn part(&self, bytes: u64) -> wgpu::BindingResource<'_> {
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: self.get(),
+            offset: 0,
+            size: wgpu::BufferSize::new(bytes),
+        })
+    }
+
     /// What is in use, to be bound.
     pub fn binding(&self) -> wgpu::BindingResource<'_> {
         wgpu::BindingResource::Buffer(wgpu::BufferBinding {

@@ -24,8 +24,10 @@ mod renderer;
 mod residents;
 mod scene;
 mod shared_buffers;
+mod slices;
 mod tier;
 mod tiles;
+mod waiting;
 
 pub use adapter::AdapterChoice;
 pub use device::GpuDevice;

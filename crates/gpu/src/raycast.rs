@@ -1,21 +1,20 @@
 //! The raycast pass: one march per pixel through the page table. A ray that needs a brick which is not resident asks for
 //! it and waits; rounds of loading and marching follow one another until no ray asks.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use glassbrick_residency::PageTable;
-use glassbrick_shaders::{Pass, Pixels, RayState, wgsl};
-use glassbrick_volume::{BrickId, BrickRange, PixelRect, PlannedBrick};
+use glassbrick_shaders::{Pass, RayState};
+use glassbrick_volume::{BrickId, PixelRect, PlannedBrick};
 use wgpu::{BufferUsages, ShaderStages};
 
-use crate::atlas_bindings::AtlasBindings;
 use crate::bindings::{bind, layout_of, read_only, storage, uniform};
-use crate::frame_uniform::{Level, frame_uniform};
+use crate::frame_uniform::FrameParts;
 use crate::grown_buffer::GrownBuffer;
 use crate::read_back::ReadBack;
 use crate::residents::Residents;
-use crate::shared_buffers::SharedBuffers;
-use crate::{GpuDevice, GpuError, GpuScene};
+use crate::waiting::Waiting;
+use crate::{GpuDevice, GpuError};
 
 /// What became of a brick, as the shader writes it.
 const ASKED_FOR: u32 = 1;
@@ -27,7 +26,6 @@ const GROUP_EDGE: u32 = 8;
 /// What the raycast pass keeps between frames.
 pub struct Raycast {
     layout: wgpu::BindGroupLayout,
-    pipelines: HashMap<Pixels, wgpu::ComputePipeline>,
     page_table: GrownBuffer,
     slot_places: GrownBuffer,
     reaches: GrownBuffer,
@@ -42,17 +40,9 @@ pub struct RaycastTile {
     /// By place in the grid: whether a brick was rendered.
     pub rendered: Vec<u32>,
     pub damaged: BTreeMap<u32, String>,
-    pub complete: bool,
+    /// Bricks that rays needed, did not have and did not wait for.
+    pub missing: Vec<BrickId>,
     pub rounds: usize,
-}
-
-/// How a frame waits for bricks.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Waiting {
-    /// Until the picture is complete.
-    Complete,
-    /// Not at all: what is resident is drawn, and what is missing is asked for.
-    Never,
 }
 
 impl Raycast {
@@ -74,7 +64,6 @@ impl Raycast {
         );
         Self {
             layout,
-            pipelines: HashMap::new(),
             page_table: GrownBuffer::new("page table", BufferUsages::STORAGE | BufferUsages::COPY_DST),
             slot_places: GrownBuffer::new("slot places", BufferUsages::STORAGE | BufferUsages::COPY_DST),
             reaches: GrownBuffer::new("reaches", BufferUsages::STORAGE | BufferUsages::COPY_DST),
@@ -90,39 +79,27 @@ impl Raycast {
     }
 
     /// Marches the rays of a tile. `planned` are the bricks that it can meet, front to back.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "a pass brings a scene, a level, a tile and what is resident together"
-    )]
     pub fn draw_tile(
         &mut self,
-        device: &GpuDevice,
-        shared: &SharedBuffers,
-        atlas: &mut AtlasBindings,
+        parts: &FrameParts,
         residents: &mut Residents,
-        scene: &GpuScene,
-        level: &Level,
-        ranges: &[BrickRange],
         tile: &PixelRect,
         planned: &[PlannedBrick],
-        waiting: Waiting,
-        pixels: Pixels,
     ) -> Result<RaycastTile, GpuError> {
+        let FrameParts { device, scene, level, waiting, .. } = *parts;
         let number = scene.plan.level;
         let id = |index: u32| BrickId::new(number, level.grid.brick(index as usize));
         let mut table =
             PageTable::new(number, level.grid, planned.iter().map(|brick| brick.index), &residents.set);
         let size = [tile.max[0] - tile.min[0], tile.max[1] - tile.min[1]];
         let (bricks, rays) = (level.grid.len(), (size[0] * size[1]) as usize);
-        self.make_buffers(device, residents, ranges, bricks, rays)?;
-        let frame = frame_uniform(scene, level, tile, waiting == Waiting::Never);
-        device.queue.write_buffer(&shared.frame, 0, bytemuck::bytes_of(&frame));
+        self.make_buffers(parts, residents, bricks, rays)?;
         let fates_read = ReadBack::new(&device.device, bricks as u64 * 4);
         let mut drawn = RaycastTile {
             states: Vec::new(),
             rendered: vec![0; bricks],
             damaged: BTreeMap::new(),
-            complete: true,
+            missing: Vec::new(),
             rounds: 0,
         };
         let mut is_first = true;
@@ -133,7 +110,7 @@ impl Raycast {
                 let offset = dirty.start as u64 * 4;
                 device.queue.write_buffer(self.page_table.get(), offset, bytemuck::cast_slice(entries));
             }
-            self.march(device, shared, atlas, residents, pixels, size, &fates_read, is_first);
+            self.march(parts, residents, size, &fates_read, is_first);
             is_first = false;
             let fates: Vec<u32> = fates_read.read(device, bricks, <[u32]>::to_vec)?;
             for (rendered, fate) in drawn.rendered.iter_mut().zip(&fates) {
@@ -157,8 +134,7 @@ impl Raycast {
             }
             if waiting == Waiting::Never {
                 residents.set.end_round();
-                residents.ask(&asked);
-                drawn.complete = false;
+                drawn.missing = asked;
                 break;
             }
             let round = residents.load_round(device, &asked, usize::MAX, scene.allow_damaged)?;
@@ -174,12 +150,12 @@ impl Raycast {
 
     fn make_buffers(
         &mut self,
-        device: &GpuDevice,
+        parts: &FrameParts,
         residents: &Residents,
-        ranges: &[BrickRange],
         bricks: usize,
         rays: usize,
     ) -> Result<(), GpuError> {
+        let device = parts.device;
         self.page_table.grow(device, bricks as u64 * 4)?;
         self.fates.grow(device, bricks as u64 * 4)?;
         self.states.grow(device, (rays * size_of::<RayState>()) as u64)?;
@@ -190,23 +166,20 @@ impl Raycast {
             })
             .collect();
         self.slot_places.write(device, bytemuck::cast_slice(&places))?;
-        let reaches: Vec<[f32; 2]> = ranges.iter().map(|range| range.reach).collect();
+        let reaches: Vec<[f32; 2]> = parts.ranges.iter().map(|range| range.reach).collect();
         self.reaches.write(device, bytemuck::cast_slice(&reaches))
     }
 
     /// Runs the pass once and copies the bricks' fates to where they are read.
-    #[expect(clippy::too_many_arguments, reason = "one submission of one pass")]
     fn march(
-        &mut self,
-        device: &GpuDevice,
-        shared: &SharedBuffers,
-        atlas: &mut AtlasBindings,
+        &self,
+        parts: &FrameParts,
         residents: &Residents,
-        pixels: Pixels,
         size: [u32; 2],
         fates_read: &ReadBack,
         is_first: bool,
     ) {
+        let FrameParts { device, shared, atlas, pixels, .. } = *parts;
         let bindings = bind(
             &device.device,
             &self.layout,
@@ -222,18 +195,15 @@ impl Raycast {
             ],
         );
         let textures = atlas.all(device, &residents.textures);
-        let pipeline = self.pipelines.entry(pixels).or_insert_with(|| {
-            let pass =
-                Pass::Raycast { pixels, filters: atlas.filters(), many_textures: atlas.textures() > 1 };
-            pipeline(&device.device, pass, &[&self.layout, atlas.layout()])
-        });
+        let pass = Pass::Raycast { pixels, filters: atlas.filters(), many_textures: atlas.textures() > 1 };
+        let pipeline = device.compute_pipeline(pass, &[Some(&self.layout), Some(atlas.layout())]);
         let mut encoder = device.device.create_command_encoder(&Default::default());
         encoder.clear_buffer(self.fates.get(), 0, Some(self.fates.used_bytes()));
         if is_first {
             encoder.clear_buffer(self.states.get(), 0, Some(self.states.used_bytes()));
         }
         let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(pipeline);
+        pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &bindings, &[]);
         pass.set_bind_group(1, &textures, &[]);
         pass.dispatch_workgroups(size[0].div_ceil(GROUP_EDGE), size[1].div_ceil(GROUP_EDGE), 1);
@@ -250,25 +220,4 @@ impl Raycast {
         device.queue.submit([encoder.finish()]);
         read.read(device, rays, <[RayState]>::to_vec)
     }
-}
-
-fn pipeline(device: &wgpu::Device, pass: Pass, groups: &[&wgpu::BindGroupLayout]) -> wgpu::ComputePipeline {
-    let groups: Vec<Option<&wgpu::BindGroupLayout>> = groups.iter().copied().map(Some).collect();
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("raycast"),
-        bind_group_layouts: &groups,
-        immediate_size: 0,
-    });
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("raycast"),
-        source: wgpu::ShaderSource::Wgsl(wgsl(pass).into()),
-    });
-    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some("raycast"),
-        layout: Some(&layout),
-        module: &module,
-        entry_point: None,
-        compilation_options: wgpu::PipelineCompilationOptions::default(),
-        cache: None,
-    })
 }

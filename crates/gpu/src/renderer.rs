@@ -1,16 +1,18 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glassbrick_volume::{BrickId, BrickRange, BrickSource, Frame, PixelRect, PlannedBrick};
+use glassbrick_volume::{BrickId, BrickRange, BrickSource, Frame, Mode};
 
 use crate::atlas_bindings::AtlasBindings;
-use crate::frame_uniform::{Level, sign};
+use crate::frame_uniform::{FrameParts, Level, frame_uniform, sign};
 use crate::pixels::{Finish, pixels};
-use crate::raycast::{Raycast, Waiting};
+use crate::raycast::{Raycast, RaycastTile};
 use crate::residents::Residents;
 use crate::shared_buffers::SharedBuffers;
+use crate::slices::{SlicesPass, SlicesTile};
 use crate::tiles::{layers_of, tiles};
-use crate::{GpuDevice, GpuError, GpuFrame, GpuScene};
+use crate::waiting::Waiting;
+use crate::{GpuDevice, GpuError, GpuFrame, GpuPass, GpuScene};
 
 /// Draws frames of one source on one device; bricks stay there from frame to frame.
 pub struct GpuRenderer {
@@ -20,7 +22,13 @@ pub struct GpuRenderer {
     atlas: AtlasBindings,
     shared: SharedBuffers,
     raycast: Raycast,
+    slices: SlicesPass,
+    /// Bricks that could not be read when they were not waited for, and why.
+    unreadable: BTreeMap<BrickId, String>,
 }
+
+/// Bricks that are uploaded for one frame that waits for none.
+const MOST_UPLOADS: usize = 16;
 
 /// What the tiles of a frame add up to.
 struct Tally {
@@ -28,7 +36,7 @@ struct Tally {
     rendered: Vec<u32>,
     damaged: BTreeMap<u32, String>,
     samples: Option<u64>,
-    complete: bool,
+    missing: Vec<BrickId>,
     rounds: usize,
 }
 
@@ -51,9 +59,11 @@ impl GpuRenderer {
             atlas: AtlasBindings::new(&device.device, texels.filters, device.tier.textures),
             shared: SharedBuffers::new(&device.device),
             raycast: Raycast::new(&device.device),
+            slices: SlicesPass::new(&device),
             device,
             source,
             residents,
+            unreadable: BTreeMap::new(),
         })
     }
 
@@ -75,6 +85,12 @@ impl GpuRenderer {
     /// # Errors
     /// When the device fails, or a brick could not be read that may not be left out.
     pub fn draw_resident(&mut self, scene: &GpuScene) -> Result<GpuFrame, GpuError> {
+        for (brick, why) in self.residents.take_loaded(&self.device, MOST_UPLOADS)? {
+            if !scene.allow_damaged {
+                return Err(why.into());
+            }
+            self.unreadable.insert(brick, why.to_string());
+        }
         self.draw_waiting(scene, Waiting::Never)
     }
 
@@ -100,72 +116,71 @@ impl GpuRenderer {
             rescale: level.desc.rescale,
             sign: sign(scene.settings.mode, level.desc),
         };
+        let pass = pass_of(scene, &self.device);
         let mut tally = Tally {
             rendered: vec![0; grid.len()],
             damaged: BTreeMap::new(),
-            samples: Some(0),
-            complete: true,
+            samples: (pass == GpuPass::Raycast).then_some(0),
+            missing: Vec::new(),
             rounds: 0,
         };
+        let parts = FrameParts {
+            device: &self.device,
+            shared: &self.shared,
+            atlas: &self.atlas,
+            scene,
+            level: &level,
+            ranges,
+            pixels: finish.pixels,
+            waiting,
+        };
         for tile in tiles(scene.rays.size.to_array()) {
-            let layers = layers_of(scene.plan, &tile);
-            self.raycast_tile(
-                scene, &level, ranges, &tile, &layers, waiting, &finish, &mut frame, &mut tally,
-            )?;
+            let mut layers = layers_of(scene.plan, &tile);
+            if waiting == Waiting::Never && !self.unreadable.is_empty() {
+                let id = |index: u32| BrickId::new(scene.plan.level, grid.brick(index as usize));
+                for layer in &mut layers {
+                    layer.retain(|brick| {
+                        let why = self.unreadable.get(&id(brick.index));
+                        tally.damaged.extend(why.map(|why| (brick.index, why.clone())));
+                        why.is_none()
+                    });
+                }
+            }
+            let uniform = frame_uniform(&parts, &tile);
+            self.device.queue.write_buffer(&self.shared.frame, 0, bytemuck::bytes_of(&uniform));
+            match pass {
+                GpuPass::Raycast => {
+                    let drawn =
+                        self.raycast.draw_tile(&parts, &mut self.residents, &tile, &layers.concat())?;
+                    finish.rays(&mut frame, &tile, &drawn.states);
+                    tally.add_rays(drawn);
+                }
+                GpuPass::Slices => {
+                    let drawn = self.slices.draw_tile(&parts, &mut self.residents, &tile, &layers)?;
+                    finish.slices(&mut frame, &tile, &drawn.gathered);
+                    tally.add_slices(drawn);
+                }
+            }
         }
         self.device.check()?;
+        if waiting == Waiting::Never {
+            self.residents.ask(&tally.missing);
+        }
         let (slots, uploads) = self.residents.take_counts();
         let rendered = tally.rendered.iter().filter(|&&rendered| rendered != 0).count();
         Ok(GpuFrame {
             frame,
+            pass,
             samples: tally.samples,
             occluded: scene.plan.bricks() - rendered - tally.damaged.len(),
             rendered,
-            complete: tally.complete && tally.damaged.is_empty(),
+            complete: tally.missing.is_empty() && tally.damaged.is_empty(),
             damaged: tally.damaged,
             slots,
             uploads,
             peak_bytes: self.residents.peak_bytes(),
             rounds: tally.rounds,
         })
-    }
-
-    #[expect(clippy::too_many_arguments, reason = "a tile of a scene goes into a frame and its tally")]
-    fn raycast_tile(
-        &mut self,
-        scene: &GpuScene,
-        level: &Level,
-        ranges: &[BrickRange],
-        tile: &PixelRect,
-        layers: &[Vec<PlannedBrick>],
-        waiting: Waiting,
-        finish: &Finish,
-        frame: &mut Frame,
-        tally: &mut Tally,
-    ) -> Result<(), GpuError> {
-        let drawn = self.raycast.draw_tile(
-            &self.device,
-            &self.shared,
-            &mut self.atlas,
-            &mut self.residents,
-            scene,
-            level,
-            ranges,
-            tile,
-            &layers.concat(),
-            waiting,
-            finish.pixels,
-        )?;
-        finish.rays(frame, tile, &drawn.states);
-        for (rendered, more) in tally.rendered.iter_mut().zip(&drawn.rendered) {
-            *rendered |= more;
-        }
-        tally.damaged.extend(drawn.damaged);
-        let samples: u64 = drawn.states.iter().map(|state| u64::from(state.samples)).sum();
-        tally.samples = tally.samples.map(|before| before + samples);
-        tally.complete &= drawn.complete;
-        tally.rounds += drawn.rounds;
-        Ok(())
     }
 
     /// Slots that there can be.
@@ -180,6 +195,34 @@ impl GpuRenderer {
         self.residents.ask(&[]);
         pinned
     }
+}
+
+impl Tally {
+    fn add_rays(&mut self, drawn: RaycastTile) {
+        for (rendered, more) in self.rendered.iter_mut().zip(&drawn.rendered) {
+            *rendered |= more;
+        }
+        let samples: u64 = drawn.states.iter().map(|state| u64::from(state.samples)).sum();
+        self.samples = self.samples.map(|before| before + samples);
+        self.damaged.extend(drawn.damaged);
+        self.missing.extend(drawn.missing);
+        self.rounds += drawn.rounds;
+    }
+
+    fn add_slices(&mut self, drawn: SlicesTile) {
+        for index in drawn.rendered {
+            self.rendered[index as usize] = 1;
+        }
+        self.damaged.extend(drawn.damaged);
+        self.missing.extend(drawn.missing);
+        self.rounds += drawn.rounds;
+    }
+}
+
+/// The pass that draws a scene. Sums of values need a device that blends f32; rays draw the mean on others.
+fn pass_of(scene: &GpuScene, device: &GpuDevice) -> GpuPass {
+    let cannot = scene.settings.mode == Mode::Mean && !device.tier.blends_sums;
+    if cannot { GpuPass::Raycast } else { scene.pass }
 }
 
 /// Smallest and largest stored value of a level.

@@ -5,7 +5,7 @@ use glassbrick_residency::{
     AtlasShape, AtlasTextures, Load, Loaded, Loader, Priority, Round, SlotId, StagingRing, VoxelEncoding,
     WorkingSet, WorkingSetCounts, next_round,
 };
-use glassbrick_volume::{Brick, BrickId, BrickSource};
+use glassbrick_volume::{Brick, BrickId, BrickSource, ReadError};
 
 use crate::tier::TexelChoice;
 use crate::{GpuDevice, GpuError};
@@ -205,7 +205,7 @@ impl Residents {
         &mut self,
         device: &GpuDevice,
         most_uploads: usize,
-    ) -> Result<Vec<(BrickId, String)>, GpuError> {
+    ) -> Result<Vec<(BrickId, ReadError)>, GpuError> {
         // Gives back the buffers whose copies are done.
         let _ = device.device.poll(wgpu::PollType::Poll);
         let mut damaged = Vec::new();
@@ -216,7 +216,7 @@ impl Residents {
             }
             let Some(Loaded { brick, voxels }) = self.loader.take() else { break };
             match voxels {
-                Err(error) => damaged.push((brick, error.to_string())),
+                Err(error) => damaged.push((brick, error)),
                 Ok(voxels) => {
                     if let Some(slot) = self.room_for(device, brick)? {
                         encoder = self.upload(device, encoder, slot, &voxels)?;

@@ -39,6 +39,8 @@ pub struct GpuScene<'a> {
 /// A finished frame and what it took.
 pub struct GpuFrame {
     pub frame: Frame,
+    /// What drew it: rays where slices cannot, as the mean on devices that do not blend f32.
+    pub pass: GpuPass,
     /// Samples evaluated; nothing where they cannot be counted.
     pub samples: Option<u64>,
     /// Planned bricks that could not change the picture when their turn came.

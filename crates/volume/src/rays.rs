@@ -131,6 +131,11 @@ impl FrameRays {
         }
     }
 
+    /// The size of a pixel at depth 1 mm; of any pixel where rays are parallel.
+    pub fn pixel_mm(&self) -> f64 {
+        2.0 * self.half_extent[1] / f64::from(self.size.y)
+    }
+
     /// Where a column's pixels have their centres, from −1 on the left to 1 on the right.
     pub fn across(&self, column: u32) -> f64 {
         2.0 * (f64::from(column) + 0.5) / f64::from(self.size.x) - 1.0
