@@ -6,6 +6,7 @@ mod binary;
 mod command_line;
 mod comparing;
 mod fair_scenes;
+mod gpu;
 mod properties;
 mod real_data;
 mod robustness;

@@ -3,9 +3,9 @@
 
 mod array_reader;
 mod command;
-mod damage;
+pub mod damage;
 mod damage_by_command;
-mod damage_kinds;
+pub mod damage_kinds;
 mod full_disk;
 mod killed;
 mod level_choice;
@@ -31,27 +31,27 @@ use crate::robustness::names_in;
 use array_reader::ArrayReader;
 
 /// A folder for volumes and stores.
-struct Scratch {
+pub struct Scratch {
     folder: TempDir,
 }
 
 impl Scratch {
-    fn new() -> Self {
+    pub fn new() -> Self {
         Self { folder: tempfile::tempdir().expect("a scratch folder") }
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
-    fn file(&self, name: &str, bytes: &[u8]) -> PathBuf {
+    pub fn file(&self, name: &str, bytes: &[u8]) -> PathBuf {
         let path = self.path(name);
         fs::write(&path, bytes).expect("a scratch file");
         path
     }
 
     /// The store `v.zarr` of a scene's volume.
-    fn store(&self, scene: &Scene, edge: u32, codec: Codec) -> PathBuf {
+    pub fn store(&self, scene: &Scene, edge: u32, codec: Codec) -> PathBuf {
         let path = self.path("v.zarr");
         let settings = IngestSettings {
             layout: BrickLayout { edge, halo: 2 },
@@ -65,12 +65,12 @@ impl Scratch {
     }
 
     /// `line` with this folder in the place of `{}`.
-    fn line(&self, line: &str) -> String {
+    pub fn line(&self, line: &str) -> String {
         line.replace("{}", self.folder.path().to_str().expect("scratch folders have plain names"))
     }
 
     /// `glassbrick` with `{}` in the line standing for this folder.
-    fn glassbrick(&self, line: &str) -> Outcome {
+    pub fn glassbrick(&self, line: &str) -> Outcome {
         glassbrick(&self.line(line), &[])
     }
 
@@ -80,7 +80,7 @@ impl Scratch {
     }
 
     /// The names in the folder, hidden ones included.
-    fn names(&self) -> Vec<String> {
+    pub fn names(&self) -> Vec<String> {
         names_in(self.folder.path())
     }
 }
@@ -128,7 +128,7 @@ fn draw_stored(
 
 /// Holds that a message is one line that says something.
 #[track_caller]
-fn assert_one_line(message: &str) {
+pub fn assert_one_line(message: &str) {
     assert!((20..900).contains(&message.len()) && !message.contains('\n'), "{message}");
     let is_panic = ["panicked", "unwrap", ".rs:", "Err("].iter().any(|word| message.contains(word));
     assert!(!is_panic, "{message}");
@@ -136,7 +136,7 @@ fn assert_one_line(message: &str) {
 
 /// Holds that a command failed with one line on stderr; returns that line. What it printed before may stand.
 #[track_caller]
-fn failed(outcome: &Outcome) -> String {
+pub fn failed(outcome: &Outcome) -> String {
     assert_eq!(outcome.code, Some(1), "{outcome:?}");
     let message = outcome.stderr.strip_suffix('\n').unwrap_or_else(|| panic!("no line: {outcome:?}"));
     assert!(message.starts_with("error: "), "{outcome:?}");
