@@ -24,8 +24,10 @@ mod footprint;
 mod frame;
 mod frame_plan;
 mod frame_report;
+mod occupancy;
 mod rays;
 mod render_settings;
+mod shown_values;
 mod stored_type;
 mod transfer_function;
 mod visible_bricks;
@@ -42,8 +44,10 @@ pub use footprint::{Footprints, PixelRect};
 pub use frame::Frame;
 pub use frame_plan::{FramePlan, Layer, PlannedBrick, eye_brick};
 pub use frame_report::{BrickCounts, FrameReport, ResidencyCounts, StageTimes};
+pub use occupancy::Occupancy;
 pub use rays::{FrameRays, Ray, RayFan};
 pub use render_settings::{Mode, Phong, RenderSettings, Skip};
+pub use shown_values::ShownValues;
 pub use stored_type::StoredType;
 pub use transfer_function::{
     BAKED_ENTRIES, BakedTransferFunction, Band, ControlPoint, TransferFunction, srgb_decode, srgb_encode,

@@ -1,8 +1,7 @@
 use glam::{IVec3, Vec3};
-use glassbrick_volume::{BrickCells, CELL_EDGE_LOG2};
+use glassbrick_volume::{BrickCells, CELL_EDGE_LOG2, Occupancy};
 
 use super::lanes::Lanes;
-use super::occupancy::Occupancy;
 use super::packet::{Column, LaneSteps, Packet};
 use super::projection::Slopes;
 use super::voxel::LaneVoxel;

@@ -1,14 +1,13 @@
 use glam::Mat3;
-use glassbrick_volume::Phong;
+use glassbrick_volume::{Occupancy, Phong, ShownValues};
 
 use super::brick::{LaneBrick, LaneRays, Surroundings};
 use super::functions::{opacity, power};
 use super::lanes::{Lanes, RowLanes};
 use super::look_up::LaneLookUp;
-use super::occupancy::{Occupancy, OccupiedRows};
+use super::occupied_rows::OccupiedRows;
 use super::packet::{Column, LaneSteps, PACKET, Packet};
 use super::projection::{Evaluated, Projection, Slopes};
-use super::shown::Shown;
 use super::shown_cells::ShownCells;
 use super::voxel::LaneVoxel;
 use crate::kernel::{BrickView, NO_SAMPLE};
@@ -18,7 +17,7 @@ pub struct LaneDvr<'a> {
     pub look_up: LaneLookUp,
     pub opacity_cutoff: f32,
     pub light: Option<LaneHeadlight>,
-    pub shown: Shown,
+    pub shown: ShownValues,
     pub shown_cells: &'a ShownCells,
     /// Whether cells in which nothing can be seen are leapt over.
     pub leaps: bool,

@@ -1,6 +1,7 @@
+use glassbrick_volume::Occupancy;
+
 use super::brick::{LaneBrick, LaneRays, Surroundings};
 use super::lanes::{Lanes, RowLanes};
-use super::occupancy::Occupancy;
 use super::packet::{Column, LaneSteps, PACKET, Packet};
 use super::projection::{Evaluated, Projection, Slopes};
 use super::voxel::LaneVoxel;

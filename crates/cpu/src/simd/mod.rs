@@ -17,11 +17,10 @@ mod instruction_set;
 mod lanes;
 mod look_up;
 mod mean;
-mod occupancy;
+mod occupied_rows;
 mod packet;
 mod portable;
 mod projection;
-mod shown;
 mod shown_cells;
 mod voxel;
 
@@ -32,7 +31,7 @@ mod avx512;
 #[cfg(target_arch = "x86_64")]
 mod rows;
 
-use glassbrick_volume::{BrickSource, FrameRays, Mode, PixelRect, ReadError, Skip, Voxels};
+use glassbrick_volume::{BrickSource, FrameRays, Mode, PixelRect, ReadError, ShownValues, Skip, Voxels};
 
 use crate::executor::{CpuFrame, CpuScene, draw_with};
 use crate::kernel::{BrickView, Kernel};
@@ -47,7 +46,6 @@ use mean::LaneMean;
 use packet::{PACKET, PacketTile};
 use portable::Portable;
 use projection::Projection;
-use shown::Shown;
 pub use shown_cells::ShownCells;
 use voxel::LaneVoxel;
 
@@ -78,7 +76,7 @@ pub fn draw(
                 look_up: LaneLookUp::new(baked, rescale),
                 opacity_cutoff: settings.effective_cutoff(),
                 light,
-                shown: Shown::new(&baked.bands(), rescale),
+                shown: ShownValues::new(&baked.bands(), rescale),
                 shown_cells: scene.shown_cells,
                 leaps: settings.skip != Skip::None,
             };

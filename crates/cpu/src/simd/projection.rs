@@ -1,6 +1,7 @@
+use glassbrick_volume::Occupancy;
+
 use super::brick::LaneBrick;
 use super::lanes::{Lanes, RowLanes};
-use super::occupancy::Occupancy;
 use super::packet::{LaneSteps, Packet};
 use super::voxel::LaneVoxel;
 use crate::kernel::BrickView;

@@ -1,6 +1,7 @@
+use glassbrick_volume::Occupancy;
 use std::sync::OnceLock;
 
-use super::occupancy::{Occupancy, OccupiedRows};
+use super::occupied_rows::OccupiedRows;
 
 /// Which cells of a level's bricks a transfer function can see: found when a brick is first drawn, and kept from frame
 /// to frame, for they depend on nothing else. Belongs to one source, level and transfer function.

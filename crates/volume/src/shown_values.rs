@@ -1,12 +1,14 @@
-use glassbrick_volume::{Band, Rescale};
+use crate::{Band, Rescale};
 
 /// The ranges of stored values of which a transfer function may show something.
-pub struct Shown {
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShownValues {
     /// Of each band, the largest stored value that a range may begin with and the smallest that it may end with.
     bands: Vec<[f32; 2]>,
 }
 
-impl Shown {
+impl ShownValues {
+    /// What the bands of a transfer function show of values that are rescaled so.
     pub fn new(bands: &[Band], rescale: Rescale) -> Self {
         let ends = |band: &Band| {
             let is_below_high = |stored: f32| rescale.value(f64::from(stored)) < band.high;
@@ -73,7 +75,7 @@ mod tests {
             [-2000.0, -901.0, -900.5, -900.0, 0.0, 140.0, 140.1, 199.0, 260.0, 299.0, 300.0, 300.2, 4e3];
         for (slope, intercept) in [(1.0, 0.0), (1.0, -1024.0), (-0.3, 17.0), (2.5e-3, 1e-2)] {
             let rescale = Rescale { slope, intercept };
-            let shown = Shown::new(&bands, rescale);
+            let shown = ShownValues::new(&bands, rescale);
             for (a, b) in values.iter().flat_map(|&a| values.iter().map(move |&b| (a, b))) {
                 let [a, b] = [a, b].map(|value| rescale.stored(value) as f32);
                 let (min, max) = (a.min(b), a.max(b));
