@@ -1,3 +1,5 @@
+use glassbrick_volume::BrickCells;
+
 /// The cells of a brick that may show something, as bits of rows along x.
 pub struct OccupiedRows {
     /// By the rows' places along y, then z.

@@ -1,5 +1,6 @@
-use glassbrick_volume::Occupancy;
 use std::sync::OnceLock;
+
+use glassbrick_volume::Occupancy;
 
 use super::occupied_rows::OccupiedRows;
 

@@ -1,3 +1,5 @@
+use glassbrick_volume::FrameRays;
+
 /// Rays that go along the volume's rows from pixel to pixel: all rays of a row of the picture have the same place along
 /// y and z at each sample, and all rays of a column the same along x.
 pub struct RowRays {
