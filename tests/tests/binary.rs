@@ -76,14 +76,23 @@ pub fn glassbrick_with(variables: &[(&str, &str)], line: &str, paths: &[&Path]) 
     outcome(command, line, paths)
 }
 
+/// What keeps all of Linux's drivers of GPUs away.
+pub const NO_DRIVERS: [(&str, &str); 4] = [
+    ("VK_DRIVER_FILES", "/nonexistent"),
+    ("VK_ICD_FILENAMES", "/nonexistent"),
+    ("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"),
+    ("EGL_LOG_LEVEL", "fatal"),
+];
+
 /// `glassbrick` with little memory to take, where the system can be told so: elsewhere than on Linux, nothing holds it
-/// back, and the tests say nothing of memory.
+/// back, and the tests say nothing of memory. Drivers are kept away, since what they take is not ours.
 pub fn glassbrick_in_little_memory(line: &str, paths: &[&Path]) -> Outcome {
     if !cfg!(target_os = "linux") {
         return glassbrick(line, paths);
     }
     let mut shell = Command::new("sh");
     shell.arg("-c").arg(format!("ulimit -v {LITTLE_MEMORY_KIB} && exec \"$0\" \"$@\"")).arg(binary());
+    shell.envs(NO_DRIVERS);
     outcome(shell, line, paths)
 }
 

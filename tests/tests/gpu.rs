@@ -62,8 +62,8 @@ fn texture_bytes(gpu: &Gpu, volume: &Volume) -> u64 {
 /// What the refusal of too little memory says that is needed: its last number.
 #[track_caller]
 fn needed_bytes(refusal: &str) -> u64 {
-    let numbers = refusal.split_whitespace().filter_map(|word| word.parse().ok());
-    numbers.last().unwrap_or_else(|| panic!("no number: {refusal}"))
+    let mut from_the_end = refusal.rsplit(' ').filter_map(|word| word.parse().ok());
+    from_the_end.next().unwrap_or_else(|| panic!("no number: {refusal}"))
 }
 
 /// A request, to be drawn on the GPU.

@@ -8,7 +8,7 @@ use glassbrick_tests::gpu::{ADAPTER_VARIABLE, gpu};
 use serde_json::{Value, json};
 
 use super::{PASSES, needed_bytes, on, texture_bytes, volume};
-use crate::binary::{glassbrick, glassbrick_with};
+use crate::binary::{NO_DRIVERS, glassbrick, glassbrick_with};
 use crate::store::damage::{EDGE, scene};
 use crate::store::{Scratch, assert_one_line, failed};
 
@@ -80,7 +80,7 @@ fn too_little_memory_is_refused_and_what_is_needed_is_enough() {
 fn an_adapter_that_is_not_there_is_refused_and_those_that_are_there_are_named() {
     let Some(gpu) = gpu() else { return };
     let own_name = gpu.adapter().split(", ").next().expect("a name");
-    let refused = Gpu::open(Some(NONE_SUCH)).err().expect("there is none").to_string();
+    let refused = Gpu::open(Some(NONE_SUCH)).expect_err("there is none").to_string();
     assert_one_line(&refused);
     assert!(refused.contains(NONE_SUCH) && refused.contains(own_name), "{refused}");
 
@@ -94,4 +94,21 @@ fn an_adapter_that_is_not_there_is_refused_and_those_that_are_there_are_named() 
     }
     let on_cpu = scratch.line(&RENDER.replace("--backend gpu", "--backend cpu"));
     glassbrick_with(&[(ADAPTER_VARIABLE, NONE_SUCH)], &on_cpu, &[]).succeeded();
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn without_any_driver_a_gpu_is_refused_and_auto_is_the_cpu() {
+    let scratch = prepared();
+    let before = scratch.names();
+    let variables: Vec<(&str, &str)> = [(ADAPTER_VARIABLE, "")].into_iter().chain(NO_DRIVERS).collect();
+    let refused = failed(&glassbrick_with(&variables, &scratch.line(RENDER), &[]));
+    assert!(refused.contains("no GPU") && refused.contains("--backend cpu"), "{refused}");
+    assert_eq!(scratch.names(), before, "nothing is written");
+
+    let auto = scratch.line(&RENDER.replace("--backend gpu", "--backend auto"));
+    glassbrick_with(&variables, &auto, &[]).succeeded();
+    let report = fs::read(scratch.path("r.json")).expect("it was written");
+    let report: Value = serde_json::from_slice(&report).expect("JSON");
+    assert_eq!(report["backend"], json!("cpu"));
 }

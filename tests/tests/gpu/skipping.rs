@@ -7,6 +7,7 @@ use glassbrick_tests::tolerance::{GPU, compare};
 use super::{Memory, ONE_TEXTURE, PASSES, difference, draw, scene, scenes_and_truths};
 
 const WAY: (BrickLayout, Memory) = (BrickLayout { edge: 24, halo: 2 }, ONE_TEXTURE);
+const SMALL_BRICKS: (BrickLayout, Memory) = (BrickLayout { edge: 16, halo: 2 }, ONE_TEXTURE);
 
 #[test]
 fn skipping_changes_nothing() {
@@ -31,7 +32,8 @@ fn what_is_hidden_is_skipped() {
     let scene = scene("transfer function opaque");
     for pass in PASSES {
         let [none, empty, all] = [Skip::None, Skip::Empty, Skip::All].map(|skip| {
-            draw(gpu, pass, WAY, scene, |request| {
+            draw(gpu, pass, SMALL_BRICKS, scene, |request| {
+                request.size = [192, 144];
                 request.settings.opacity_cutoff = 0.95;
                 request.settings.skip = skip;
             })

@@ -82,7 +82,6 @@ fn what_this_volume_or_version_cannot_do_is_said() {
     let scratch = Scratch::new();
     let input = sound(&scratch);
     for (flags, words) in [
-        ("--backend gpu", "gpu"),
         ("--level 3", "level 3"),
         ("--memory 1", "memory"),
         ("--memory 10KB --threads 8", "threads"),
