@@ -10,8 +10,17 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga_oil::compose::{ComposableModuleDescriptor, Composer, NagaModuleDescriptor, ShaderDefValue};
 
 /// Shared modules, each after those that it imports.
-const SHARED: [&str; 8] =
-    ["frame", "rays", "bricks", "transfer_function", "atlas", "light", "sliced_brick", "full_screen"];
+const SHARED: [&str; 9] = [
+    "frame",
+    "rays",
+    "cells",
+    "bricks",
+    "transfer_function",
+    "atlas",
+    "light",
+    "sliced_brick",
+    "full_screen",
+];
 
 const FILTER: [&[&str]; 2] = [&[], &["FILTERS"]];
 const TEXTURES: [&[&str]; 2] = [&[], &["MANY_TEXTURES"]];

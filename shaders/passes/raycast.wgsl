@@ -1,9 +1,10 @@
-#import glassbrick::frame::frame
-#import glassbrick::rays::{Ray, ray_of, sample_voxel, end_in_box, first_in_volume}
-#import glassbrick::bricks::{owner, brick_index, core_start, owned_low, owned_high}
+#import glassbrick::frame::{frame, PASSES_MISSING, SKIPS_UNCHANGED}
+#import glassbrick::rays::{Ray, ray_of, sample_voxel, is_inside, first_in_volume}
+#import glassbrick::bricks::{owner, brick_index, core_start}
 #import glassbrick::atlas::{stored_value, gradient}
+#import glassbrick::cells::{cell_answer, behind_box, CELL_EDGE}
 #ifdef DVR
-#import glassbrick::transfer_function::look_up
+#import glassbrick::transfer_function::{entry_of, extinction, color_of}
 #import glassbrick::light::shade
 #endif
 
@@ -22,9 +23,10 @@ struct RayState {
     padding: u32,
 }
 
-// Page table entries that are not slots.
-const NOT_PLANNED: u32 = 0xffffffffu;
-const MISSING: u32 = 0xfffffffeu;
+// Page table entries that are not slots. A brick that is not planned has its distance to the nearest one that is, in
+// bricks along the farthest axis, in the other bits.
+const NOT_PLANNED: u32 = 0x80000000u;
+const MISSING: u32 = 0xffffffffu;
 const NO_SAMPLE: u32 = 0u;
 // What became of a brick in this frame.
 const ASKED_FOR: u32 = 1u;
@@ -39,26 +41,90 @@ const RENDERED: u32 = 2u;
 // Of each brick.
 @group(0) @binding(7) var<storage, read_write> fates: array<atomic<u32>>;
 
-// Whether no sample of a brick can change what the ray gathered.
-fn is_unchanged_by(state: RayState, index: u32) -> bool {
+struct Slot {
+    texture: u32,
+    // Texel of the volume's voxel (0, 0, 0).
+    texel_from_voxel: vec3f,
+}
+
+// Where a ray goes on.
+struct Found {
+    // The next sample; the ray's end where there is none.
+    number: u32,
+    // Its brick, and what the page table says of it.
+    index: u32,
+    entry: u32,
+    slot: Slot,
+    // The samples up to here lie in the same cell, or brick where no cells are asked about.
+    end: u32,
+}
+
+// Whether no sample up to a rank can change what the ray gathered.
+fn is_unchanged_by(state: RayState, rank: f32) -> bool {
 #ifdef EXTREMUM
-    let reach = reaches[index];
-    let best = select(-reach.x, reach.y, frame.sign > 0.0);
-    return frame.skips_unchanged == 1u && state.surface != NO_SAMPLE && state.gathered.x >= best;
+    let gathered = frame.rank_from_stored.x * frame.sign * state.gathered.x + frame.rank_from_stored.y;
+    return state.surface != NO_SAMPLE && rank <= gathered;
 #else
     return false;
 #endif
 }
 
-struct Slot {
-    texture: u32,
-    // Texel of voxel (0, 0, 0).
-    texel_from_voxel: vec3f,
-}
-
-fn slot_of(entry: u32, brick: vec3u) -> Slot {
-    let place = slot_places[entry];
-    return Slot(place.w, vec3f(place.xyz) + f32(frame.halo) - core_start(brick));
+// Goes on from a sample to the next one that may count, leaping over bricks that are not planned and over cells and bricks
+// that cannot change the pixel. One loop for all leaps: drivers that run rays in step wait for the slowest.
+fn find(state: RayState, ray: Ray, first: u32) -> Found {
+    var found = Found(first, 0u, NOT_PLANNED, Slot(0u, vec3f(0.0)), first);
+    let core = f32(frame.core);
+    while found.number < frame.sample_count {
+        let at = sample_voxel(ray, found.number);
+        if !is_inside(at, frame.volume_low, frame.volume_high) {
+            found.number = frame.sample_count;
+            break;
+        }
+        let brick = owner(at);
+        found.index = brick_index(brick);
+        found.entry = page_table[found.index];
+        let is_planned = found.entry < NOT_PLANNED || found.entry == MISSING;
+        // The brick, or all those around it that are not planned either.
+        let apart = select(f32(found.entry - NOT_PLANNED), 1.0, is_planned);
+        var low = (vec3f(brick) - (apart - 1.0)) * core - 0.5;
+        var high = (vec3f(brick) + apart) * core - 0.5;
+        var counts = is_planned;
+#ifdef EXTREMUM
+        let reach = reaches[found.index];
+        let ranks = frame.rank_from_stored.x * reach + frame.rank_from_stored.y;
+        let skips = (frame.flags & SKIPS_UNCHANGED) != 0u;
+        counts = counts && !(skips && is_unchanged_by(state, max(ranks.x, ranks.y)));
+#endif
+        let is_resident = found.entry < NOT_PLANNED;
+        let place = slot_places[select(0u, found.entry, is_resident)];
+        let origin = core_start(brick) - f32(frame.halo);
+        found.slot = Slot(place.w, vec3f(place.xyz) - origin);
+#ifndef MEAN
+        if counts && is_resident && frame.cell_words > 0u {
+            let cell = floor((at - origin) / CELL_EDGE);
+            let answer = f32(cell_answer(found.entry, vec3u(cell)));
+#ifdef DVR
+            counts = answer == 0.0;
+            let cells = max(answer, 1.0);
+#else
+            counts = !is_unchanged_by(state, answer / 65535.0);
+            let cells = 1.0;
+#endif
+            low = max(low, (cell - (cells - 1.0)) * CELL_EDGE + origin);
+            high = min(high, (cell + cells) * CELL_EDGE + origin);
+        }
+#endif
+        if found.entry == MISSING && counts && (frame.flags & PASSES_MISSING) == 0u {
+            found.end = found.number;
+            break;
+        }
+        found.end = behind_box(ray, at, found.number, max(low, frame.volume_low), min(high, frame.volume_high));
+        if counts {
+            break;
+        }
+        found.number = found.end;
+    }
+    return found;
 }
 
 // Adds a sample; whether the ray stops after it.
@@ -66,21 +132,20 @@ fn add(state: ptr<function, RayState>, slot: Slot, ray: Ray, number: u32) -> boo
     let texel = sample_voxel(ray, number) + slot.texel_from_voxel;
     let stored = stored_value(slot.texture, texel);
 #ifdef DVR
-    let entry = look_up(stored);
-    if entry.a <= 0.0 {
-        return false;
-    }
-    let gathered = (*state).gathered;
-    let weight = (1.0 - gathered.a) * (1.0 - exp(-entry.a * ray.step_length_mm));
+    let entry = entry_of(stored);
+    let opacity_before = (*state).gathered.a;
+    let weight = (1.0 - opacity_before) * (1.0 - exp(-extinction(entry) * ray.step_length_mm));
+    let opacity = opacity_before + weight;
+    // A loop that runs once or not at all: some drivers compute both sides of a branch.
+    for (var shows = weight > 0.0; shows; shows = false) {
+        var color = color_of(entry);
 #ifdef SHADED
-    let color = shade(entry.rgb, gradient(slot.texture, texel), ray);
-#else
-    let color = entry.rgb;
+        color = shade(color, gradient(slot.texture, texel), ray);
 #endif
-    let opacity = gathered.a + weight;
-    (*state).gathered = vec4f(gathered.rgb + weight * color, opacity);
-    if opacity >= 0.5 && (*state).surface == NO_SAMPLE {
-        (*state).surface = number + 1u;
+        (*state).gathered = vec4f((*state).gathered.rgb + weight * color, opacity);
+        if opacity >= 0.5 && (*state).surface == NO_SAMPLE {
+            (*state).surface = number + 1u;
+        }
     }
     return opacity >= frame.opacity_cutoff;
 #else
@@ -112,40 +177,32 @@ fn raycast(@builtin(global_invocation_id) id: vec3u) {
     let ray = ray_of(id.xy + frame.tile_origin);
     let count = frame.sample_count;
     var number = state.next;
-    if number < count {
-        number = first_in_volume(ray, number);
+    if number == 0u {
+        number = first_in_volume(ray);
     }
-    let volume_end = select(count, end_in_box(ray, number, frame.volume_low, frame.volume_high), number < count);
-    while number < volume_end {
-        let brick = owner(sample_voxel(ray, number));
-        let index = brick_index(brick);
-        let entry = page_table[index];
-        let end = end_in_box(ray, number, owned_low(brick), owned_high(brick));
-        if entry == NOT_PLANNED || is_unchanged_by(state, index) {
-            number = end;
-            continue;
-        }
-        if entry == MISSING {
-            atomicOr(&fates[index], ASKED_FOR);
-            if frame.passes_missing == 1u {
-                number = end;
-                continue;
-            }
+    while number < count {
+        let found = find(state, ray, number);
+        number = found.number;
+        if number >= count {
             break;
         }
-        atomicOr(&fates[index], RENDERED);
-        let slot = slot_of(entry, brick);
-        let first = number;
+        let is_missing = found.entry == MISSING;
+        atomicOr(&fates[found.index], select(RENDERED, ASKED_FOR, is_missing));
+        if is_missing {
+            number = found.end;
+            if (frame.flags & PASSES_MISSING) == 0u {
+                break;
+            }
+            continue;
+        }
         var is_done = false;
-        while number < end && !is_done {
-            is_done = add(&state, slot, ray, number);
+        while number < found.end && !is_done {
+            is_done = add(&state, found.slot, ray, number);
             number += 1u;
         }
-        state.samples += number - first;
-        if is_done {
-            number = volume_end;
-        }
+        state.samples += number - found.number;
+        number = select(number, count, is_done);
     }
-    state.next = select(number, count, number >= volume_end);
+    state.next = min(number, count);
     states[place] = state;
 }

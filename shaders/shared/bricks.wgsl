@@ -1,10 +1,14 @@
 #define_import_path glassbrick::bricks
 #import glassbrick::frame::frame
 
-// The brick that owns a sample of the volume.
+// The brick that owns a sample of the volume. Divided by way of the reciprocal, and put right by exact products.
 fn owner(at: vec3f) -> vec3u {
-    let cell = vec3u(max(floor(at + 0.5), vec3f(0.0)));
-    return min(cell / frame.core, frame.grid_counts - 1u);
+    let from_face = max(at + 0.5, vec3f(0.0));
+    let core = f32(frame.core);
+    var brick = floor(from_face * frame.cores_per_voxel);
+    brick = select(brick, brick - 1.0, brick * core > from_face);
+    brick = select(brick, brick + 1.0, (brick + 1.0) * core <= from_face);
+    return min(vec3u(brick), frame.grid_counts - 1u);
 }
 
 // A brick's place in tables: x fastest.
@@ -15,14 +19,4 @@ fn brick_index(brick: vec3u) -> u32 {
 // First voxel of a brick's core.
 fn core_start(brick: vec3u) -> vec3f {
     return vec3f(brick * frame.core);
-}
-
-// The half-open box of samples that a brick owns: its low corner.
-fn owned_low(brick: vec3u) -> vec3f {
-    return select(core_start(brick) - 0.5, frame.volume_low, brick == vec3u(0u));
-}
-
-// Its high corner.
-fn owned_high(brick: vec3u) -> vec3f {
-    return select(core_start(brick + 1u) - 0.5, frame.volume_high, brick + 1u == frame.grid_counts);
 }

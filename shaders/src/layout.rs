@@ -8,12 +8,13 @@ use bytemuck::{Pod, Zeroable};
 pub struct Frame {
     pub tile_origin: [u32; 2],
     pub tile_size: [u32; 2],
-    pub picture_width: u32,
     pub sample_count: u32,
+    pub cores_per_voxel: f32,
     pub core: u32,
     pub halo: u32,
     pub grid_counts: [u32; 3],
-    pub passes_missing: u32,
+    /// [`Frame::PASSES_MISSING`] and [`Frame::SKIPS_UNCHANGED`].
+    pub flags: u32,
     pub volume_low: [f32; 3],
     pub opacity_cutoff: f32,
     pub volume_high: [f32; 3],
@@ -27,20 +28,29 @@ pub struct Frame {
     /// Columns of three, each padded to four.
     pub normal_from_gradient: [[f32; 4]; 3],
     pub step_mm: f32,
-    pub skips_unchanged: u32,
+    pub cell_bytes: u32,
     pub box_depth: [f32; 2],
     pub rank_from_stored: [f32; 2],
-    pub padding: [u32; 2],
+    pub cell_edge: u32,
+    pub cell_words: u32,
+    pub rays: RayFan,
 }
 
-/// What a column or a row of the picture adds to its rays; see `shared/rays.wgsl`.
+impl Frame {
+    /// A brick that is not resident is passed by; else its ray waits for it.
+    pub const PASSES_MISSING: u32 = 1;
+    /// Bricks that cannot change a pixel are left out.
+    pub const SKIPS_UNCHANGED: u32 = 2;
+}
+
+/// How rays fan out over the pixels of a picture; see `shared/frame.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct RayPart {
-    pub start_high: [f32; 4],
-    pub start_low: [f32; 4],
-    pub step_high: [f32; 4],
-    pub step_low: [f32; 4],
+pub struct RayFan {
+    pub start_high: [[f32; 4]; 3],
+    pub start_low: [[f32; 4]; 3],
+    pub step_high: [[f32; 4]; 3],
+    pub step_low: [[f32; 4]; 3],
 }
 
 /// What a ray of the raycast pass has gathered, and where it goes on; zeros at the start. See `passes/raycast.wgsl`.

@@ -15,7 +15,7 @@
 
 mod layout;
 
-pub use layout::{DrawArgs, Frame, QueryRange, RayPart, RayState, SlicedBrick};
+pub use layout::{DrawArgs, Frame, QueryRange, RayFan, RayState, SlicedBrick};
 
 include!(concat!(env!("OUT_DIR"), "/variants.rs"));
 

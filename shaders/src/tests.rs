@@ -38,12 +38,12 @@ fn structs_lie_in_memory_as_the_shaders_read_them() {
         Frame {
             tile_origin,
             tile_size,
-            picture_width,
             sample_count,
+            cores_per_voxel,
             core,
             halo,
             grid_counts,
-            passes_missing,
+            flags,
             volume_low,
             opacity_cutoff,
             volume_high,
@@ -56,13 +56,15 @@ fn structs_lie_in_memory_as_the_shaders_read_them() {
             phong,
             normal_from_gradient,
             step_mm,
-            skips_unchanged,
+            cell_bytes,
             box_depth,
             rank_from_stored,
-            padding,
+            cell_edge,
+            cell_words,
+            rays,
         }
     );
-    lies_as_in_wgsl!(raycast, RayPart { start_high, start_low, step_high, step_low });
+    lies_as_in_wgsl!(raycast, RayFan { start_high, start_low, step_high, step_low });
     lies_as_in_wgsl!(raycast, RayState { gathered, next, surface, samples, padding });
     let slices = &parse(Pass::Slices { pixels: Pixels::Extremum, filters: true });
     lies_as_in_wgsl!(

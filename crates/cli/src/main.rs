@@ -32,6 +32,7 @@ const EXIT_USAGE: u8 = 2;
 
 fn main() -> ExitCode {
     let start = Instant::now();
+    quieten_drivers();
     let words: Vec<OsString> = std::env::args_os().collect();
     let cli = match Cli::try_parse_from(&words) {
         Ok(cli) => cli,
@@ -49,6 +50,21 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if error.is::<UsageError>() => usage_failure(&error.to_string(), &words),
         Err(error) => failure(&error),
+    }
+}
+
+/// Mesa's layer that orders devices prints a complaint where there is no desktop; nobody needs it there, since the best
+/// adapter is found by its kind.
+fn quieten_drivers() {
+    const LAYER_OFF: &str = "NODEVICE_SELECT";
+    let is_set = |name| std::env::var_os(name).is_some();
+    if cfg!(target_os = "linux")
+        && !is_set("XDG_RUNTIME_DIR")
+        && !is_set("MESA_VK_DEVICE_SELECT")
+        && !is_set(LAYER_OFF)
+    {
+        // SAFETY: no other thread has been started, so none reads the environment meanwhile.
+        unsafe { std::env::set_var(LAYER_OFF, "1") };
     }
 }
 

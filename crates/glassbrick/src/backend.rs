@@ -4,6 +4,7 @@ use std::sync::Arc;
 use glassbrick_gpu::{AdapterChoice, GpuDevice};
 
 use crate::Error;
+use crate::platform::may_have_a_gpu;
 
 /// What draws.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,12 +30,13 @@ impl Gpu {
 
     /// Opens the best hardware GPU; nothing where there is none that can draw volumes.
     pub fn open_hardware() -> Option<Self> {
-        GpuDevice::open(AdapterChoice::Hardware).ok().map(|device| Self(Arc::new(device)))
+        let device = may_have_a_gpu().then(|| GpuDevice::open(AdapterChoice::Hardware));
+        device.and_then(Result::ok).map(|device| Self(Arc::new(device)))
     }
 
     /// The hardware GPU that `open_hardware` would open, by name.
     pub fn hardware() -> Option<String> {
-        GpuDevice::hardware()
+        may_have_a_gpu().then(GpuDevice::hardware).flatten()
     }
 
     /// Its name, interface and driver.

@@ -121,13 +121,13 @@ impl Executor {
     }
 
     /// Prefetches and pins boundary bricks; returns how many. The CPU's memory pins none.
-    pub fn pin(&self, bricks: impl FnOnce(usize) -> Vec<BrickId>) -> usize {
+    pub fn pin(&self, bricks: impl FnOnce(usize) -> Vec<BrickId>) -> Result<usize, Error> {
         match self {
-            Self::Cpu(_) => 0,
+            Self::Cpu(_) => Ok(0),
             Self::Gpu { renderer, .. } => {
                 let mut renderer = renderer.lock().unwrap_or_else(PoisonError::into_inner);
                 let bricks = bricks(renderer.slots());
-                renderer.pin(&bricks)
+                Ok(renderer.pin(&bricks)?)
             }
         }
     }

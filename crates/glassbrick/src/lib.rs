@@ -26,6 +26,7 @@ mod encode;
 mod error;
 mod executor;
 mod histogram;
+mod platform;
 mod presets;
 mod process_memory;
 mod render_request;

@@ -76,7 +76,7 @@ impl<'a> Renderer<'a> {
         let id = |index: u32| BrickId::new(level, grid.brick(index as usize));
         let pinned = self
             .executor
-            .pin(|slots| boundary_bricks(&visible.bricks, &grid, slots).into_iter().map(id).collect());
+            .pin(|slots| boundary_bricks(&visible.bricks, &grid, slots).into_iter().map(id).collect())?;
         self.boundary_pinned.store(pinned, Ordering::Relaxed);
         Ok(pinned)
     }

@@ -30,7 +30,9 @@ struct Pipelines {
 #[derive(Default)]
 struct Trouble {
     lost: Option<String>,
-    error: Option<String>,
+    /// How many errors there were, and the last one.
+    errors: usize,
+    last: Option<String>,
 }
 
 impl GpuDevice {
@@ -54,7 +56,7 @@ impl GpuDevice {
         let (device, queue) = pollster::block_on(request)
             .map_err(|error| GpuError::NoDevice { adapter: name.clone(), what: error.to_string() })?;
         let trouble = watch(&device);
-        let tier = Tier::new(&info, &device, |format| filters_exactly(&device, &queue, format));
+        let tier = Tier::new(&adapter, &device, |format| filters_exactly(&device, &queue, format));
         Ok(Self { device, queue, tier, adapter: name, trouble, pipelines: Mutex::default() })
     }
 
@@ -132,19 +134,38 @@ impl GpuDevice {
         }
     }
 
-    /// Whether the device is well.
+    /// Whether the device is still there.
     ///
     /// # Errors
-    /// When it is lost, or what it was given was wrong.
-    pub fn check(&self) -> Result<(), GpuError> {
-        let mut trouble = self.trouble.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(what) = &trouble.lost {
-            return Err(GpuError::Lost { what: what.clone() });
-        }
-        match trouble.error.take() {
-            Some(what) => Err(GpuError::Driver { what }),
+    /// When it is lost.
+    fn check(&self) -> Result<(), GpuError> {
+        match &self.trouble().lost {
+            Some(what) => Err(GpuError::Lost { what: what.clone() }),
             None => Ok(()),
         }
+    }
+
+    /// How many errors the driver told of so far.
+    pub fn troubles(&self) -> usize {
+        self.trouble().errors
+    }
+
+    /// Whether the device did well since it had told of so many errors. What several frames at a time were told at once
+    /// ends them all: it cannot be known whose error it was.
+    ///
+    /// # Errors
+    /// When it is lost, or something that it was given was wrong.
+    pub fn check_since(&self, troubles: usize) -> Result<(), GpuError> {
+        self.check()?;
+        let trouble = self.trouble();
+        match &trouble.last {
+            Some(what) if trouble.errors > troubles => Err(GpuError::Driver { what: what.clone() }),
+            _ => Ok(()),
+        }
+    }
+
+    fn trouble(&self) -> MutexGuard<'_, Trouble> {
+        self.trouble.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -153,13 +174,14 @@ fn flags() -> wgpu::InstanceFlags {
     wgpu::InstanceFlags::from_build_config().with_env()
 }
 
-/// Keeps what the driver says: the first error counts, those that follow from it do not.
+/// Keeps what the driver says.
 fn watch(device: &wgpu::Device) -> Arc<Mutex<Trouble>> {
     let trouble = Arc::new(Mutex::new(Trouble::default()));
     let for_errors = Arc::clone(&trouble);
     device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
         let mut trouble = for_errors.lock().unwrap_or_else(PoisonError::into_inner);
-        trouble.error.get_or_insert_with(|| one_line(&error.to_string()));
+        trouble.errors += 1;
+        trouble.last = Some(one_line(&error.to_string()));
     }));
     let for_loss = Arc::clone(&trouble);
     device.set_device_lost_callback(move |reason, message| {

@@ -1,10 +1,12 @@
 use glam::{UVec2, UVec3, Vec3};
 use glassbrick_residency::{AtlasShape, VoxelEncoding};
 use glassbrick_shaders::{Frame, Pixels};
-use glassbrick_volume::{BrickGrid, BrickRange, Mode, Phong, PixelRect, Skip, VolumeDesc};
+use glassbrick_volume::{BrickGrid, BrickRange, Mode, Phong, PixelRect, ShownValues, Skip, VolumeDesc};
 
 use crate::atlas_bindings::AtlasBindings;
+use crate::ray_fan::ray_fan;
 use crate::shared_buffers::SharedBuffers;
+use crate::slot_cells::{CellLayout, CellQuestion};
 use crate::waiting::Waiting;
 use crate::{GpuDevice, GpuScene};
 
@@ -36,8 +38,27 @@ pub fn sign(mode: Mode, desc: &VolumeDesc) -> f32 {
     if (mode != Mode::Minip) == (desc.rescale.slope > 0.0) { 1.0 } else { -1.0 }
 }
 
+/// What is asked of the cells of bricks; nothing where every sample counts, or every sample is to be taken.
+pub fn cell_question(parts: &FrameParts) -> Option<CellQuestion> {
+    let (scene, rescale) = (parts.scene, parts.level.desc.rescale);
+    match (parts.pixels, scene.settings.skip) {
+        (Pixels::Dvr | Pixels::DvrShaded, Skip::Empty | Skip::All) => {
+            Some(CellQuestion::Distance(ShownValues::new(&scene.transfer_function.bands(), rescale)))
+        }
+        (Pixels::Extremum, Skip::All) => {
+            let sign = sign(scene.settings.mode, parts.level.desc);
+            Some(CellQuestion::Rank(rank_from_stored(parts.level.stored_range, sign)))
+        }
+        _ => None,
+    }
+}
+
 /// What shaders know of a tile of a frame.
-pub fn frame_uniform(parts: &FrameParts, tile: &PixelRect) -> Frame {
+pub fn frame_uniform(
+    parts: &FrameParts,
+    CellLayout { cell_edge, cell_words, cell_bytes }: CellLayout,
+    tile: &PixelRect,
+) -> Frame {
     let (scene, level) = (parts.scene, parts.level);
     let (rays, grid, baked) = (scene.rays, &level.grid, scene.transfer_function);
     let rescale = level.desc.rescale;
@@ -46,15 +67,18 @@ pub fn frame_uniform(parts: &FrameParts, tile: &PixelRect) -> Frame {
     let Phong { ambient, diffuse, specular, shininess } = scene.settings.shading.unwrap_or_default();
     let normals = level.desc.level(scene.plan.level).desc.normal_from_gradient().as_mat3();
     let sign = sign(scene.settings.mode, level.desc);
+    let flag = |is_set: bool, flag: u32| if is_set { flag } else { 0 };
+    let flags = flag(parts.waiting == Waiting::Never, Frame::PASSES_MISSING)
+        | flag(scene.settings.skip == Skip::All, Frame::SKIPS_UNCHANGED);
     Frame {
         tile_origin: tile.min,
         tile_size: (UVec2::from(tile.max) - UVec2::from(tile.min)).to_array(),
-        picture_width: rays.size.x,
         sample_count: rays.sample_count,
+        cores_per_voxel: 1.0 / grid.layout.core() as f32,
         core: grid.layout.core(),
         halo: grid.layout.halo,
         grid_counts: grid.counts.to_array(),
-        passes_missing: (parts.waiting == Waiting::Never).into(),
+        flags,
         volume_low: volume_low.to_array(),
         opacity_cutoff: scene.settings.effective_cutoff().min(f32::MAX),
         volume_high: volume_high.to_array(),
@@ -68,17 +92,19 @@ pub fn frame_uniform(parts: &FrameParts, tile: &PixelRect) -> Frame {
         normal_from_gradient: [normals.x_axis, normals.y_axis, normals.z_axis]
             .map(|column| column.extend(0.0).to_array()),
         step_mm: rays.step_mm as f32,
-        skips_unchanged: (scene.settings.skip == Skip::All).into(),
+        cell_bytes,
         box_depth: box_depth(scene),
         rank_from_stored: rank_from_stored(level.stored_range, sign),
-        padding: [0; 2],
+        cell_edge,
+        cell_words,
+        rays: ray_fan(rays),
     }
 }
 
-/// The baked columns as the look-up reads them: linear light and extinction per mm.
-pub fn entries(scene: &GpuScene) -> Vec<[f32; 4]> {
+/// The baked columns as the look-up reads them: extinctions per mm, and then colours in linear light, each of four.
+pub fn entries(scene: &GpuScene) -> [Vec<f32>; 2] {
     let baked = scene.transfer_function;
-    baked.color.iter().zip(&baked.extinction).map(|(&[r, g, b], &extinction)| [r, g, b, extinction]).collect()
+    [baked.extinction.clone(), baked.color.iter().flat_map(|&[r, g, b]| [r, g, b, 0.0]).collect()]
 }
 
 /// Clip depth of boxes from the slice that a corner lies in. All samples lie half a step in front of the eye or farther;

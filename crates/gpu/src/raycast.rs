@@ -9,7 +9,7 @@ use glassbrick_volume::{BrickId, PixelRect, PlannedBrick};
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::bindings::{bind, layout_of, read_only, storage, uniform};
-use crate::frame_uniform::FrameParts;
+use crate::frame_uniform::{FrameParts, cell_question, frame_uniform};
 use crate::grown_buffer::GrownBuffer;
 use crate::read_back::ReadBack;
 use crate::residents::Residents;
@@ -53,13 +53,14 @@ impl Raycast {
             ShaderStages::COMPUTE,
             &[
                 (0, uniform()),
-                (1, read_only()),
                 (2, read_only()),
                 (3, read_only()),
                 (4, read_only()),
                 (5, read_only()),
                 (6, storage()),
                 (7, storage()),
+                (8, read_only()),
+                (9, read_only()),
             ],
         );
         Self {
@@ -102,6 +103,10 @@ impl Raycast {
             missing: Vec::new(),
             rounds: 0,
         };
+        let question = cell_question(parts);
+        residents.cells.answer(device, question.clone(), residents.set.slots())?;
+        let uniform = frame_uniform(parts, residents.cells.layout(), tile);
+        device.queue.write_buffer(&parts.shared.frame, 0, bytemuck::bytes_of(&uniform));
         let mut is_first = true;
         loop {
             drawn.rounds += 1;
@@ -110,6 +115,7 @@ impl Raycast {
                 let offset = dirty.start as u64 * 4;
                 device.queue.write_buffer(self.page_table.get(), offset, bytemuck::cast_slice(entries));
             }
+            residents.cells.answer(device, question.clone(), residents.set.slots())?;
             self.march(parts, residents, size, &fates_read, is_first);
             is_first = false;
             let fates: Vec<u32> = fates_read.read(device, bricks, <[u32]>::to_vec)?;
@@ -185,13 +191,14 @@ impl Raycast {
             &self.layout,
             &[
                 (0, shared.frame.as_entire_binding()),
-                (1, shared.ray_parts.binding()),
-                (2, shared.entries.binding()),
+                (2, shared.extinctions.binding()),
                 (3, self.page_table.binding()),
                 (4, self.slot_places.binding()),
                 (5, self.reaches.binding()),
                 (6, self.states.binding()),
                 (7, self.fates.binding()),
+                (8, residents.cells.binding()),
+                (9, shared.colors.binding()),
             ],
         );
         let textures = atlas.all(device, &residents.textures);

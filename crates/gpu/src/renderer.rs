@@ -4,7 +4,7 @@ use std::sync::Arc;
 use glassbrick_volume::{BrickId, BrickRange, BrickSource, Frame, Mode};
 
 use crate::atlas_bindings::AtlasBindings;
-use crate::frame_uniform::{FrameParts, Level, frame_uniform, sign};
+use crate::frame_uniform::{FrameParts, Level, sign};
 use crate::pixels::{Finish, pixels};
 use crate::raycast::{Raycast, RaycastTile};
 use crate::residents::Residents;
@@ -22,7 +22,8 @@ pub struct GpuRenderer {
     atlas: AtlasBindings,
     shared: SharedBuffers,
     raycast: Raycast,
-    slices: SlicesPass,
+    /// Made when it is first drawn with.
+    slices: Option<SlicesPass>,
     /// Bricks that could not be read when they were not waited for, and why.
     unreadable: BTreeMap<BrickId, String>,
 }
@@ -59,7 +60,7 @@ impl GpuRenderer {
             atlas: AtlasBindings::new(&device.device, texels.filters, device.tier.textures),
             shared: SharedBuffers::new(&device.device),
             raycast: Raycast::new(&device.device),
-            slices: SlicesPass::new(&device),
+            slices: None,
             device,
             source,
             residents,
@@ -99,6 +100,7 @@ impl GpuRenderer {
         let number = scene.plan.level;
         let (grid, ranges) = (source.grid(number), source.ranges(number));
         let mut frame = Frame::transparent(scene.rays.size.x, scene.rays.size.y);
+        let troubles = self.device.troubles();
         self.residents.set.begin_frame();
         self.residents.reserve(&self.device, scene.plan.bricks())?;
         self.shared.write(&self.device, scene)?;
@@ -146,8 +148,6 @@ impl GpuRenderer {
                     });
                 }
             }
-            let uniform = frame_uniform(&parts, &tile);
-            self.device.queue.write_buffer(&self.shared.frame, 0, bytemuck::bytes_of(&uniform));
             match pass {
                 GpuPass::Raycast => {
                     let drawn =
@@ -156,13 +156,14 @@ impl GpuRenderer {
                     tally.add_rays(drawn);
                 }
                 GpuPass::Slices => {
-                    let drawn = self.slices.draw_tile(&parts, &mut self.residents, &tile, &layers)?;
+                    let slices = self.slices.get_or_insert_with(|| SlicesPass::new(&self.device));
+                    let drawn = slices.draw_tile(&parts, &mut self.residents, &tile, &layers)?;
                     finish.slices(&mut frame, &tile, &drawn.gathered);
                     tally.add_slices(drawn);
                 }
             }
         }
-        self.device.check()?;
+        self.device.check_since(troubles)?;
         if waiting == Waiting::Never {
             self.residents.ask(&tally.missing);
         }
@@ -190,10 +191,14 @@ impl GpuRenderer {
 
     /// Pins boundary bricks, the first ones first, and asks for those that are not resident; half the slots hold pinned
     /// bricks at most. Returns how many are pinned.
-    pub fn pin(&mut self, bricks: &[BrickId]) -> usize {
+    ///
+    /// # Errors
+    /// When the device has no memory at all.
+    pub fn pin(&mut self, bricks: &[BrickId]) -> Result<usize, GpuError> {
+        self.residents.reserve(&self.device, 2 * bricks.len())?;
         let pinned = self.residents.set.set_pinned(bricks);
         self.residents.ask(&[]);
-        pinned
+        Ok(pinned)
     }
 }
 
@@ -219,10 +224,11 @@ impl Tally {
     }
 }
 
-/// The pass that draws a scene. Sums of values need a device that blends f32; rays draw the mean on others.
+/// The pass that draws a scene: rays where the device cannot draw slices into f32, or cannot blend the sums of a mean.
 fn pass_of(scene: &GpuScene, device: &GpuDevice) -> GpuPass {
-    let cannot = scene.settings.mode == Mode::Mean && !device.tier.blends_sums;
-    if cannot { GpuPass::Raycast } else { scene.pass }
+    let tier = &device.tier;
+    let can = tier.draws_f32 && (scene.settings.mode != Mode::Mean || tier.blends_f32);
+    if can { scene.pass } else { GpuPass::Raycast }
 }
 
 /// Smallest and largest stored value of a level.

@@ -7,6 +7,7 @@ use glassbrick_residency::{
 };
 use glassbrick_volume::{Brick, BrickId, BrickSource, ReadError};
 
+use crate::slot_cells::SlotCells;
 use crate::tier::TexelChoice;
 use crate::{GpuDevice, GpuError};
 
@@ -15,6 +16,7 @@ pub struct Residents {
     pub set: WorkingSet,
     pub textures: AtlasTextures,
     pub encoding: VoxelEncoding,
+    pub cells: SlotCells,
     loader: Loader,
     staging: StagingRing,
     /// Slots that the budget, or the device's memory, leaves room for.
@@ -78,6 +80,7 @@ impl Residents {
             set: WorkingSet::new(if grows { shape.slots_per_texture() } else { most_slots }),
             textures: AtlasTextures::new(shape, texels.format),
             encoding: VoxelEncoding::new(texels.format, stored_type, min_stored),
+            cells: SlotCells::new(brick_edge),
             loader: Loader::new(source, threads, threads)?,
             staging: StagingRing::new(brick_edge, texels.format.bytes()),
             most_slots,
@@ -107,12 +110,15 @@ impl Residents {
         let cubes = (bricks as u64).div_ceil(per_cube.into()).next_power_of_two();
         let mut cubes = cubes.min(u64::from(self.most_slots / per_cube)) as u32;
         self.keep_counts();
+        self.set.clear();
+        let pinned: Vec<BrickId> = self.set.missing_pinned().collect();
         let format = self.textures.format;
         loop {
             let shape = AtlasShape::new(self.textures.shape.brick_edge, cubes);
             // The smaller texture goes first, so that the two together never go beyond the budget.
             self.textures = AtlasTextures::new(shape, format);
             self.set = WorkingSet::new(shape.slots_per_texture());
+            self.set.set_pinned(&pinned);
             if pollster::block_on(self.textures.make(&device.device, 1)) == 1 {
                 self.peak_bytes = self.peak_bytes.max(self.textures.bytes());
                 return Ok(());
@@ -274,6 +280,7 @@ impl Residents {
         self.staging
             .write(&device.device, &mut encoder, voxels, &self.encoding, texture, place)
             .map_err(|error| GpuError::Driver { what: error.to_string() })?;
+        self.cells.put(slot, voxels.cells());
         self.counts.uploads += 1;
         self.counts.bytes +=
             u64::from(self.textures.shape.brick_edge).pow(3) * u64::from(self.textures.format.bytes());

@@ -2,14 +2,13 @@ use wgpu::BufferUsages;
 
 use crate::frame_uniform::entries;
 use crate::grown_buffer::GrownBuffer;
-use crate::ray_parts::ray_parts;
 use crate::{GpuDevice, GpuError, GpuScene};
 
 /// What all passes of a frame read.
 pub struct SharedBuffers {
     pub frame: wgpu::Buffer,
-    pub ray_parts: GrownBuffer,
-    pub entries: GrownBuffer,
+    pub extinctions: GrownBuffer,
+    pub colors: GrownBuffer,
 }
 
 impl SharedBuffers {
@@ -22,14 +21,15 @@ impl SharedBuffers {
                 usage: BufferUsages::UNIFORM | BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             }),
-            ray_parts: GrownBuffer::new("ray parts", usage),
-            entries: GrownBuffer::new("transfer function", usage),
+            extinctions: GrownBuffer::new("extinctions", usage),
+            colors: GrownBuffer::new("colours", usage),
         }
     }
 
     /// Takes what a scene's tiles have in common.
     pub fn write(&mut self, device: &GpuDevice, scene: &GpuScene) -> Result<(), GpuError> {
-        self.ray_parts.write(device, bytemuck::cast_slice(&ray_parts(scene.rays)))?;
-        self.entries.write(device, bytemuck::cast_slice(&entries(scene)))
+        let [extinctions, colors] = entries(scene);
+        self.extinctions.write(device, bytemuck::cast_slice(&extinctions))?;
+        self.colors.write(device, bytemuck::cast_slice(&colors))
     }
 }

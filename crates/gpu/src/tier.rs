@@ -16,10 +16,10 @@ pub struct Tier {
     pub textures: usize,
     /// Texels of a 3D texture along an axis, at most.
     pub largest_volume_texture: u32,
-    /// What slices are blended into.
-    pub blend_format: wgpu::TextureFormat,
-    /// Whether sums of values can be blended, for the mean by slices.
-    pub blends_sums: bool,
+    /// Whether slices can be drawn at all: into f32.
+    pub draws_f32: bool,
+    /// Whether f32 can be blended; f16 is, where not, and no means are drawn by slices.
+    pub blends_f32: bool,
     /// Formats whose texels are filtered exactly, found by trying.
     pub filtered: Vec<TexelFormat>,
     /// Formats that textures can have.
@@ -61,7 +61,7 @@ impl Tier {
 
     /// The tier of a device; `filters_exactly` tries a format that can be filtered.
     pub fn new(
-        info: &wgpu::AdapterInfo,
+        adapter: &wgpu::Adapter,
         device: &wgpu::Device,
         filters_exactly: impl Fn(TexelFormat) -> bool,
     ) -> Self {
@@ -76,22 +76,25 @@ impl Tier {
         if has(Features::FLOAT32_FILTERABLE) {
             filterable.push(TexelFormat::R32);
         }
-        let blends = has(Features::FLOAT32_BLENDABLE);
-        let is_software = !is_hardware(info);
+        let f32_picture =
+            adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float).allowed_usages;
+        let draws_f32 = f32_picture.contains(wgpu::TextureUsages::RENDER_ATTACHMENT);
+        let is_software = !is_hardware(&adapter.get_info());
         let bound = (limits.max_sampled_textures_per_shader_stage as usize).min(MOST_TEXTURES);
         Self {
             is_software,
             textures: if is_software || bound < MOST_TEXTURES { 1 } else { MOST_TEXTURES },
             largest_volume_texture: limits.max_texture_dimension_3d,
-            blend_format: if blends {
-                wgpu::TextureFormat::Rgba32Float
-            } else {
-                wgpu::TextureFormat::Rgba16Float
-            },
-            blends_sums: blends,
+            draws_f32,
+            blends_f32: draws_f32 && has(Features::FLOAT32_BLENDABLE),
             filtered: filterable.into_iter().filter(|&format| filters_exactly(format)).collect(),
             formats,
         }
+    }
+
+    /// What slices are blended into.
+    pub fn blend_format(&self) -> wgpu::TextureFormat {
+        if self.blends_f32 { wgpu::TextureFormat::Rgba32Float } else { wgpu::TextureFormat::Rgba16Float }
     }
 
     /// How the voxels of a stored type are kept: the smallest format that is filtered exactly, else the smallest.
@@ -118,8 +121,8 @@ mod tests {
             is_software: false,
             textures: 16,
             largest_volume_texture: 2048,
-            blend_format: wgpu::TextureFormat::Rgba32Float,
-            blends_sums: true,
+            draws_f32: true,
+            blends_f32: true,
             filtered: filtered.to_vec(),
             formats: formats.to_vec(),
         }

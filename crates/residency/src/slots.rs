@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 /// How many slots there can be: the numbers above name no slot in a page table.
-pub const MOST_SLOTS: u32 = u32::MAX - 1;
+pub const MOST_SLOTS: u32 = 1 << 31;
 
 /// A place for one brick. Slots are numbered from 0 on, atlas by atlas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -94,6 +94,6 @@ mod tests {
     #[test]
     fn no_slot_has_the_number_of_something_else() {
         assert_eq!(FreeSlots::new(u32::MAX).slots(), MOST_SLOTS);
-        assert_eq!(SlotId(MOST_SLOTS - 1).0 + 1, crate::MISSING);
+        assert_eq!(SlotId(MOST_SLOTS - 1).0 + 1, crate::NOT_PLANNED);
     }
 }

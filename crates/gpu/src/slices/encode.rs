@@ -305,8 +305,8 @@ impl Bound {
                 &pipelines.frame,
                 &[
                     (0, shared.frame.as_entire_binding()),
-                    (1, shared.ray_parts.binding()),
-                    (2, shared.entries.binding()),
+                    (2, shared.extinctions.binding()),
+                    (9, shared.colors.binding()),
                 ],
             ),
             bricks: bind(

@@ -3,6 +3,8 @@ use glassbrick_residency::SlotPlace;
 use glassbrick_shaders::SlicedBrick;
 use glassbrick_volume::{BrickGrid, FrameRays, PixelRect, VolumeDesc};
 
+use super::parts::{BrickPart, BrickPlace, Eye};
+
 /// Boxes are taken this much larger, in voxels, than they are, for the rounding of positions to f32.
 const SLACK_VOXELS: f64 = 1.0 / 64.0;
 
@@ -18,6 +20,7 @@ pub struct SliceGeometry {
     /// Where the tile's middle is, in units of half the tile, as seen from the picture's.
     middle: [f64; 2],
     perspective: bool,
+    eye: Eye,
     sample_count: u32,
     /// Of a pixel at depth 1 mm, or of any pixel of a parallel projection.
     pixel_mm: f64,
@@ -48,6 +51,11 @@ impl SliceGeometry {
             depth_mm: [first_mm, step_mm],
             middle,
             perspective: rays.is_perspective(),
+            eye: if rays.is_perspective() {
+                Eye::At(rays.eye_voxel.as_vec3())
+            } else {
+                Eye::Along(rays.forward_voxel.as_vec3())
+            },
             sample_count: rays.sample_count,
             pixel_mm: rays.pixel_mm(),
             voxels_per_mm: DVec3::from_array(std::array::from_fn(|axis| voxel_from_world.row(axis).length())),
@@ -55,10 +63,26 @@ impl SliceGeometry {
         }
     }
 
-    /// What is drawn of a brick, and of how many slices; nothing where none of its samples is in front of the eye.
-    pub fn of(&self, index: u32, slot: Option<SlotPlace>, best: f32) -> Option<(SlicedBrick, u32)> {
+    /// The whole of a brick as a part.
+    pub fn whole(&self, index: u32, best: f32) -> BrickPart {
+        BrickPart { owned: self.grid.owned_box(self.grid.brick(index as usize)), best }
+    }
+
+    /// Where a brick lies, and the eye.
+    pub fn place(&self, index: u32) -> BrickPlace {
         let brick = self.grid.brick(index as usize);
-        let owned = self.grid.owned_box(brick);
+        BrickPlace {
+            owned: self.grid.owned_box(brick),
+            first_voxel: self.grid.halo_start(brick).as_vec3(),
+            eye: self.eye,
+        }
+    }
+
+    /// What is drawn of a part of a brick, and of how many slices; nothing where none of its samples is in front of the
+    /// eye.
+    pub fn of(&self, index: u32, slot: Option<SlotPlace>, part: &BrickPart) -> Option<(SlicedBrick, u32)> {
+        let brick = self.grid.brick(index as usize);
+        let owned = part.owned;
         let [low, high] = [owned[0].as_dvec3() - SLACK_VOXELS, owned[1].as_dvec3() + SLACK_VOXELS];
         let slice = |corner: UVec3, [low, high]: [DVec3; 2]| {
             let voxel = DVec3::select(corner.cmpeq(UVec3::ONE), high, low);
@@ -80,7 +104,8 @@ impl SliceGeometry {
             owned_low: owned[0].to_array(),
             last_slice: farthest as f32,
             owned_high: owned[1].to_array(),
-            best,
+            // Never below the ranks of its samples, for rounding.
+            best: (part.best + 4.0 * f32::EPSILON).max(2e-6),
             texel_from_voxel: (texel - core_start).to_array(),
             padding: 0,
         };
@@ -125,7 +150,9 @@ mod tests {
         let rays = FrameRays::new(&desc.level(0), &camera, UVec2::new(23, 17), 0.8).expect("sound camera");
         let tile = PixelRect { min: [3, 2], max: [20, 15] };
         let geometry = SliceGeometry::new(&rays, desc, grid, &tile);
-        let drawn: Vec<_> = (0..grid.len() as u32).map(|index| geometry.of(index, None, 1.0)).collect();
+        let drawn: Vec<_> = (0..grid.len() as u32)
+            .map(|index| geometry.of(index, None, &geometry.whole(index, 1.0)))
+            .collect();
         for row in tile.min[1]..tile.max[1] {
             for column in tile.min[0]..tile.max[0] {
                 let ray = rays.ray(column, row);

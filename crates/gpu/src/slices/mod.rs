@@ -10,6 +10,7 @@
 
 mod encode;
 mod geometry;
+mod parts;
 mod pipelines;
 mod round;
 mod targets;
@@ -17,16 +18,19 @@ mod targets;
 use std::collections::BTreeMap;
 
 use bytemuck::Zeroable;
+use glassbrick_residency::SlotId;
 use glassbrick_shaders::{Pixels, SlicedBrick};
 use glassbrick_volume::{BrickId, PixelRect, PlannedBrick, Skip};
 
-use crate::frame_uniform::{FrameParts, rank_from_stored, sign};
+use crate::frame_uniform::{FrameParts, cell_question, frame_uniform, rank_from_stored, sign};
 use crate::read_back::ReadBack;
 use crate::residents::Residents;
+use crate::slot_cells::{CellLayout, CellQuestion};
 use crate::waiting::Waiting;
 use crate::{GpuDevice, GpuError};
 use encode::{RoundBuffers, RoundEncoder, Style};
 use geometry::SliceGeometry;
+use parts::{BrickPart, PARTS, parts};
 use pipelines::{READ_FORMAT, SlicePipelines};
 use round::{MOST_QUERIES, RoundBrick, SliceRound, most_bricks};
 use targets::SliceTargets;
@@ -87,6 +91,8 @@ impl SlicesPass {
         let size = [tile.max[0] - tile.min[0], tile.max[1] - tile.min[1]];
         self.make_targets(parts.device, size, style)?;
         self.clear(parts.device, style);
+        let uniform = frame_uniform(parts, CellLayout::NONE, tile);
+        parts.device.queue.write_buffer(&parts.shared.frame, 0, bytemuck::bytes_of(&uniform));
         let scene = parts.scene;
         let level_desc = parts.level.desc.level(scene.plan.level).desc;
         let geometry = SliceGeometry::new(scene.rays, &level_desc, parts.level.grid, tile);
@@ -100,6 +106,7 @@ impl SlicesPass {
                 waiting.into_iter().partition(|brick| residents.set.slot_of(id(&brick.planned)).is_some());
             (waiting, missing) = (here, away);
         }
+        let question = cell_question(parts);
         let mut drawn = SlicesTile {
             gathered: Vec::new(),
             rendered: Vec::new(),
@@ -109,7 +116,8 @@ impl SlicesPass {
         };
         loop {
             drawn.rounds += 1;
-            let most = most_bricks(waiting.chunk_by(|a, b| a.group == b.group).map(<[Waited]>::len));
+            let groups = waiting.chunk_by(|a, b| a.group == b.group);
+            let most = most_bricks(groups.map(<[Waited]>::len), if question.is_some() { PARTS } else { 1 });
             let wanted: Vec<BrickId> = waiting.iter().take(most).map(|brick| id(&brick.planned)).collect();
             let most_loads = residents.textures.shape.slots_per_cube() as usize;
             let loaded = residents.load_round(parts.device, &wanted, most_loads, scene.allow_damaged)?;
@@ -119,11 +127,9 @@ impl SlicesPass {
             let taken: Vec<Waited> = waiting.drain(..loaded.taken).collect();
             let mut round = SliceRound::default();
             for group in taken.chunk_by(|a, b| a.group == b.group) {
-                round.add(group.iter().filter_map(|brick| {
-                    let slot = residents.set.slot_of(id(&brick.planned))?;
-                    let place = residents.textures.shape.place(slot);
-                    let (sliced, slices) = geometry.of(brick.planned.index, Some(place), brick.best)?;
-                    Some(RoundBrick { planned: brick.planned, sliced, slices, texture: place.texture })
+                round.add(group.iter().flat_map(|brick| {
+                    let slot = residents.set.slot_of(id(&brick.planned));
+                    slot.map_or(Vec::new(), |slot| drawn_parts(brick, slot, residents, &geometry, &question))
                 }));
             }
             let (drawn_groups, drawn_bricks) = (round.groups.len(), round.bricks.len());
@@ -209,7 +215,7 @@ fn style(parts: &FrameParts) -> Style {
 
 fn accumulated_format(device: &GpuDevice, style: Style) -> wgpu::TextureFormat {
     let is_layered = matches!(style.pixels, Pixels::Dvr | Pixels::DvrShaded);
-    if is_layered { device.tier.blend_format } else { READ_FORMAT }
+    if is_layered { device.tier.blend_format() } else { READ_FORMAT }
 }
 
 /// The bricks in the order in which they are drawn: layer by layer, or the best values first.
@@ -217,9 +223,7 @@ fn waiting_bricks(parts: &FrameParts, layers: &[Vec<PlannedBrick>], style: Style
     let ranks = rank_from_stored(parts.level.stored_range, sign(parts.scene.settings.mode, parts.level.desc));
     let best = |planned: &PlannedBrick| {
         let [low, high] = parts.ranges[planned.index as usize].reach;
-        let rank = (ranks[0] * low + ranks[1]).max(ranks[0] * high + ranks[1]);
-        // Never below what its samples are given, for rounding.
-        (rank + 4.0 * f32::EPSILON).clamp(2e-6, 1.0 + 4.0 * f32::EPSILON)
+        (ranks[0] * low + ranks[1]).max(ranks[0] * high + ranks[1])
     };
     let in_layers = layers
         .iter()
@@ -238,13 +242,35 @@ fn waiting_bricks(parts: &FrameParts, layers: &[Vec<PlannedBrick>], style: Style
     bricks
 }
 
+/// What is drawn of a brick in a slot: its parts where something is asked of its cells, else the whole.
+fn drawn_parts(
+    brick: &Waited,
+    slot: SlotId,
+    residents: &Residents,
+    geometry: &SliceGeometry,
+    question: &Option<CellQuestion>,
+) -> Vec<RoundBrick> {
+    let (index, place) = (brick.planned.index, residents.textures.shape.place(slot));
+    let cells = residents.cells.of(slot);
+    let drawn = match (question, cells) {
+        (Some(question), Some(cells)) => parts(&geometry.place(index), cells, question),
+        _ => vec![geometry.whole(index, brick.best)],
+    };
+    let sliced = |part: &BrickPart| {
+        let (sliced, slices) = geometry.of(index, Some(place), part)?;
+        Some(RoundBrick { planned: brick.planned, sliced, slices, texture: place.texture })
+    };
+    drawn.iter().filter_map(sliced).collect()
+}
+
 /// Asks at the end of a round about bricks that are left; returns about how many.
 fn ask_about(round: &mut SliceRound, left: &[Waited], geometry: &SliceGeometry) -> usize {
     let room = MOST_QUERIES.saturating_sub(round.queries());
     let asked = left.len().min(room);
     round.add(left.iter().take(asked).map(|brick| {
+        let whole = geometry.whole(brick.planned.index, brick.best);
         let (sliced, slices) =
-            geometry.of(brick.planned.index, None, brick.best).unwrap_or((SlicedBrick::zeroed(), 0));
+            geometry.of(brick.planned.index, None, &whole).unwrap_or((SlicedBrick::zeroed(), 0));
         RoundBrick { planned: brick.planned, sliced, slices, texture: 0 }
     }));
     asked

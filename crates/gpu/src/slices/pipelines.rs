@@ -30,13 +30,13 @@ pub const READ_FORMAT: TextureFormat = TextureFormat::Rgba32Float;
 
 impl SlicePipelines {
     pub fn new(gpu: &GpuDevice) -> Self {
-        let (device, blend_format) = (&gpu.device, gpu.tier.blend_format);
+        let (device, blend_format) = (&gpu.device, gpu.tier.blend_format());
         let frame = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame of slices"),
             entries: &[
                 (0, uniform(), ShaderStages::VERTEX_FRAGMENT),
-                (1, read_only(), ShaderStages::FRAGMENT),
                 (2, read_only(), ShaderStages::FRAGMENT),
+                (9, read_only(), ShaderStages::FRAGMENT),
             ]
             .map(|(binding, ty, visibility)| wgpu::BindGroupLayoutEntry {
                 binding,
@@ -88,7 +88,7 @@ impl SlicePipelines {
         let (stencil, target) = match pixels {
             Pixels::Dvr | Pixels::DvrShaded => (
                 Some(where_not_opaque()),
-                blended(gpu.tier.blend_format, BlendFactor::One, BlendFactor::OneMinusSrcAlpha),
+                blended(gpu.tier.blend_format(), BlendFactor::One, BlendFactor::OneMinusSrcAlpha),
             ),
             Pixels::Extremum => (Some(where_better(true)), plain(READ_FORMAT)),
             Pixels::Mean => (None, blended(READ_FORMAT, BlendFactor::One, BlendFactor::One)),

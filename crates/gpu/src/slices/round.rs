@@ -11,7 +11,7 @@ const QUERY_ALIGNMENT: usize = 32;
 /// Corners of the fan of triangles that a slice is.
 pub const SLICE_INDICES: [u16; 12] = [0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5];
 
-/// A brick that is drawn or asked about.
+/// A brick, or a part of one, that is drawn or asked about.
 #[derive(Clone, Copy)]
 pub struct RoundBrick {
     pub planned: PlannedBrick,
@@ -29,16 +29,17 @@ pub struct Group {
     pub first_query: usize,
 }
 
-/// How many bricks, group by group of these sizes, one round takes; as many queries again are left to ask about others.
-pub fn most_bricks(groups: impl IntoIterator<Item = usize>) -> usize {
+/// How many bricks, group by group of these sizes and drawn in so many parts each, one round takes; as many queries again
+/// are left to ask about others.
+pub fn most_bricks(groups: impl IntoIterator<Item = usize>, parts: usize) -> usize {
     let (mut queries, mut bricks) = (0usize, 0);
     for group in groups {
-        let room = (MOST_QUERIES / 2).saturating_sub(queries);
+        let room = (MOST_QUERIES / 2).saturating_sub(queries) / parts;
         bricks += group.min(room);
         if group >= room {
             break;
         }
-        queries = (queries + group).next_multiple_of(QUERY_ALIGNMENT);
+        queries = (queries + group * parts).next_multiple_of(QUERY_ALIGNMENT);
     }
     bricks
 }
@@ -119,9 +120,10 @@ mod tests {
 
     #[test]
     fn a_round_leaves_half_the_queries_to_ask_about_others() {
-        assert_eq!(most_bricks([3, 36, 5]), 44);
-        assert_eq!(most_bricks([MOST_QUERIES]), MOST_QUERIES / 2);
-        assert_eq!(most_bricks(vec![1; MOST_QUERIES]), MOST_QUERIES / 2 / QUERY_ALIGNMENT);
-        assert_eq!(most_bricks([]), 0);
+        assert_eq!(most_bricks([3, 36, 5], 1), 44);
+        assert_eq!(most_bricks([MOST_QUERIES], 8), MOST_QUERIES / 16);
+        assert_eq!(most_bricks([MOST_QUERIES], 1), MOST_QUERIES / 2);
+        assert_eq!(most_bricks(vec![1; MOST_QUERIES], 1), MOST_QUERIES / 2 / QUERY_ALIGNMENT);
+        assert_eq!(most_bricks([], 1), 0);
     }
 }

@@ -134,7 +134,7 @@ impl Both {
         assert_eq!(self.set.admissible(), self.naive.slots() - safe.len());
         assert!(bricks.iter().all(|&brick| self.set.may_go(brick) != safe.contains(&brick)));
         assert_eq!(self.set.missing_pinned().collect::<Vec<_>>(), self.naive.missing_pinned());
-        let mut entries = vec![NOT_PLANNED; grid().len()];
+        let mut entries: Vec<u32> = (0..grid().len()).map(|index| self.distance(index)).collect();
         for &index in &self.planned {
             let slot = self.naive.slot_of(BrickId::new(0, grid().brick(index as usize)));
             entries[index as usize] = slot.map_or(MISSING, |slot| slot as u32);
@@ -144,6 +144,13 @@ impl Both {
             self.uploaded[dirty.clone()].copy_from_slice(&self.table.entries()[dirty]);
         }
         assert_eq!(self.uploaded, entries, "what is dirty is all that changed");
+    }
+
+    /// The entry of a brick that is not planned: its distance from the nearest one that is.
+    fn distance(&self, index: usize) -> u32 {
+        let at = |index: usize| grid().brick(index).as_ivec3();
+        let apart = |&planned: &u32| (at(planned as usize) - at(index)).abs().max_element() as u32;
+        NOT_PLANNED + self.planned.iter().map(apart).min().unwrap_or(1 << 20)
     }
 }
 

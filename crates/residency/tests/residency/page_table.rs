@@ -14,7 +14,7 @@ fn entries_tell_what_is_planned_and_where_it_is() {
     let mut set = WorkingSet::new(8);
     next_round(&mut set, &bricks([5, 4, 1]), usize::MAX);
     let table = PageTable::new(0, grid(), [1, 2, 5], &set);
-    assert_eq!(table.entries(), [NOT_PLANNED, 2, MISSING, NOT_PLANNED, NOT_PLANNED, 0]);
+    assert_eq!(table.entries(), [NOT_PLANNED + 1, 2, MISSING, NOT_PLANNED + 1, NOT_PLANNED + 1, 0]);
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn bricks_that_are_not_planned_or_of_another_level_or_grid_change_nothing() {
         table.set_missing(stranger);
     }
     assert_eq!(table.take_dirty(), None);
-    assert_eq!(table.entries()[..2], [MISSING, NOT_PLANNED]);
+    assert_eq!(table.entries()[..3], [MISSING, NOT_PLANNED + 1, NOT_PLANNED + 2]);
 }
 
 #[test]
@@ -57,8 +57,15 @@ fn another_plan_changes_only_what_differs() {
     let mut table = PageTable::new(0, grid(), [0, 1, 5], &set);
     table.take_dirty();
     table.plan([0, 3, 5], &set);
-    assert_eq!(table.entries(), [MISSING, NOT_PLANNED, NOT_PLANNED, 0, NOT_PLANNED, MISSING]);
+    assert_eq!(table.entries(), [MISSING, NOT_PLANNED + 1, NOT_PLANNED + 1, 0, NOT_PLANNED + 1, MISSING]);
     assert_eq!(table.take_dirty(), Some(1..4));
     table.plan([0, 3, 5], &set);
     assert_eq!(table.take_dirty(), None);
+}
+
+#[test]
+fn a_brick_that_is_left_out_is_leapt_over() {
+    let mut table = PageTable::new(0, grid(), 0..6, &WorkingSet::new(2));
+    table.leave_out(brick(2));
+    assert_eq!(table.entries()[1..4], [MISSING, NOT_PLANNED + 1, MISSING]);
 }
