@@ -10,6 +10,8 @@
 const CELL_EDGE: f32 = 8.0;
 // Boxes are left this early, in voxels, so that rounding never leaps over a sample behind them.
 const EARLY: f32 = 1e-3;
+// And as much of a position, which is rounded the coarser the larger it is.
+const EARLY_OF_POSITION: f32 = 3e-7;
 
 // What is known of a cell of a slot's brick.
 fn cell_answer(slot: u32, cell: vec3u) -> u32 {
@@ -22,7 +24,8 @@ fn cell_answer(slot: u32, cell: vec3u) -> u32 {
 // The first sample after `number` that may lie outside the box [low, high). `at` is where sample `number` is, from the
 // same origin.
 fn behind_box(ray: Ray, at: vec3f, number: u32, low: vec3f, high: vec3f) -> u32 {
-    let bound = select(low + EARLY, high - EARLY, ray.step > vec3f(0.0));
+    let early = EARLY + abs(at) * EARLY_OF_POSITION;
+    let bound = select(low + early, high - early, ray.step > vec3f(0.0));
     let apart = select(vec3f(1e6), (bound - at) / ray.step, ray.step != vec3f(0.0));
     return number + u32(max(ceil(min(apart.x, min(apart.y, apart.z))), 1.0));
 }

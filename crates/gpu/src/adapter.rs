@@ -1,3 +1,5 @@
+use std::collections::BTreeSet;
+
 use wgpu::DeviceType;
 
 use crate::GpuError;
@@ -72,8 +74,9 @@ pub fn described(info: &wgpu::AdapterInfo) -> String {
 }
 
 fn names(adapters: &[wgpu::Adapter]) -> String {
-    let names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
-    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+    // One device may be there by several interfaces.
+    let names: BTreeSet<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+    if names.is_empty() { "none".to_owned() } else { names.into_iter().collect::<Vec<_>>().join(", ") }
 }
 
 /// What is faster comes first; of one device, the interface that can do more.

@@ -129,9 +129,13 @@ impl Raycast {
                     .map(|brick| brick.index)
                     .filter(move |&index| fates[index as usize] & fate != 0)
             };
-            // What was just used goes last.
+            // What was just used goes last. What was there before the first round is a hit, the rest was a miss.
             for index in with(RENDERED) {
-                residents.set.hold(id(index));
+                if drawn.rounds == 1 {
+                    residents.set.hold(id(index));
+                } else {
+                    residents.set.hold_again(id(index));
+                }
             }
             let asked: Vec<BrickId> = with(ASKED_FOR).map(id).collect();
             if asked.is_empty() {
@@ -145,6 +149,12 @@ impl Raycast {
             }
             let round = residents.load_round(device, &asked, usize::MAX, scene.allow_damaged)?;
             table.follow(&round.loads);
+            // Prefetched bricks may have come besides.
+            for &brick in &asked {
+                if let Some(slot) = residents.set.slot_of(brick) {
+                    table.set_resident(brick, slot);
+                }
+            }
             for (brick, why) in round.damaged {
                 table.leave_out(brick);
                 drawn.damaged.insert(level.grid.index(brick.place()) as u32, why);

@@ -1,4 +1,4 @@
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use glassbrick_volume::{BrickId, BrickRange, BrickSource, Frame, Mode};
@@ -86,6 +86,8 @@ impl GpuRenderer {
     /// # Errors
     /// When the device fails, or a brick could not be read that may not be left out.
     pub fn draw_resident(&mut self, scene: &GpuScene) -> Result<GpuFrame, GpuError> {
+        // What the last frame drew is in use: it goes no sooner than what lies idle.
+        self.residents.set.begin_frame();
         for (brick, why) in self.residents.take_loaded(&self.device, MOST_UPLOADS)? {
             if !scene.allow_damaged {
                 return Err(why.into());
@@ -164,6 +166,8 @@ impl GpuRenderer {
             }
         }
         self.device.check_since(troubles)?;
+        // A brick may be missing from several tiles, and be drawn in none.
+        let missing: BTreeSet<BrickId> = tally.missing.iter().copied().collect();
         if waiting == Waiting::Never {
             self.residents.ask(&tally.missing);
         }
@@ -173,7 +177,7 @@ impl GpuRenderer {
             frame,
             pass,
             samples: tally.samples,
-            occluded: scene.plan.bricks() - rendered - tally.damaged.len(),
+            occluded: scene.plan.bricks() - rendered - tally.damaged.len() - missing.len(),
             rendered,
             complete: tally.missing.is_empty() && tally.damaged.is_empty(),
             damaged: tally.damaged,

@@ -81,7 +81,7 @@ impl Residents {
             textures: AtlasTextures::new(shape, texels.format),
             encoding: VoxelEncoding::new(texels.format, stored_type, min_stored),
             cells: SlotCells::new(brick_edge),
-            loader: Loader::new(source, threads, threads)?,
+            loader: Loader::new(source, threads, 2 * threads)?,
             staging: StagingRing::new(brick_edge, texels.format.bytes()),
             most_slots,
             grows,
@@ -146,26 +146,48 @@ impl Residents {
         let mut slots: HashMap<BrickId, SlotId> =
             round.loads.iter().map(|load| (load.brick, load.slot)).collect();
         let bricks: Vec<BrickId> = round.loads.iter().map(|load| load.brick).collect();
-        self.loader.request(Priority::NeededNow, &bricks);
+        if !bricks.is_empty() {
+            self.loader.request(Priority::NeededNow, &bricks);
+        }
         let mut damaged = Vec::new();
         let mut encoder = device.device.create_command_encoder(&Default::default());
         while !slots.is_empty() {
-            let Some(loaded) = self.loader.wait() else { break };
-            let Some(slot) = slots.remove(&loaded.brick) else { continue };
-            match loaded.voxels {
-                Ok(voxels) => encoder = self.upload(device, encoder, slot, &voxels)?,
-                Err(error) => {
-                    self.set.remove(loaded.brick);
-                    if !allow_damaged {
-                        self.forget(slots.into_keys());
-                        return Err(error.into());
-                    }
-                    damaged.push((loaded.brick, error.to_string()));
+            let Some(Loaded { brick, voxels }) = self.loader.wait() else { break };
+            let done = match (slots.remove(&brick), voxels) {
+                (Some(slot), Ok(voxels)) => self.upload(device, &mut encoder, slot, &voxels),
+                (Some(_), Err(error)) if allow_damaged => {
+                    damaged.push((brick, error.to_string()));
+                    self.set.remove(brick);
+                    Ok(())
                 }
+                (Some(_), Err(error)) => Err(error.into()),
+                (None, Ok(voxels)) => self.upload_if_free(device, &mut encoder, brick, &voxels),
+                // Whoever needs it hears of it then.
+                (None, Err(_)) => Ok(()),
+            };
+            if let Err(error) = done {
+                self.forget(slots.into_keys().chain([brick]));
+                return Err(error);
             }
         }
         self.submit(device, encoder);
         Ok(LoadedRound { taken: round.taken, loads: round.loads, damaged })
+    }
+
+    /// Uploads a brick that was asked for before this round, where no other one has to go for it.
+    fn upload_if_free(
+        &mut self,
+        device: &GpuDevice,
+        encoder: &mut wgpu::CommandEncoder,
+        brick: BrickId,
+        voxels: &Arc<Brick>,
+    ) -> Result<(), GpuError> {
+        if self.set.resident() < self.set.slots() as usize
+            && let Some(slot) = self.room_for(device, brick)?
+        {
+            self.upload(device, encoder, slot, voxels)?;
+        }
+        Ok(())
     }
 
     /// Plans a round and makes the textures that it needs. Where the device's memory ends before, the round is made of
@@ -225,7 +247,7 @@ impl Residents {
                 Err(error) => damaged.push((brick, error)),
                 Ok(voxels) => {
                     if let Some(slot) = self.room_for(device, brick)? {
-                        encoder = self.upload(device, encoder, slot, &voxels)?;
+                        self.upload(device, &mut encoder, slot, &voxels)?;
                     }
                 }
             }
@@ -266,25 +288,25 @@ impl Residents {
     fn upload(
         &mut self,
         device: &GpuDevice,
-        mut encoder: wgpu::CommandEncoder,
+        encoder: &mut wgpu::CommandEncoder,
         slot: SlotId,
         voxels: &Arc<Brick>,
-    ) -> Result<wgpu::CommandEncoder, GpuError> {
+    ) -> Result<(), GpuError> {
         let place = self.textures.shape.place(slot);
         while !self.staging.has_room() {
-            self.submit(device, encoder);
+            let fresh = device.device.create_command_encoder(&Default::default());
+            self.submit(device, std::mem::replace(encoder, fresh));
             device.wait()?;
-            encoder = device.device.create_command_encoder(&Default::default());
         }
         let texture = &self.textures.textures()[place.texture as usize];
         self.staging
-            .write(&device.device, &mut encoder, voxels, &self.encoding, texture, place)
+            .write(&device.device, encoder, voxels, &self.encoding, texture, place)
             .map_err(|error| GpuError::Driver { what: error.to_string() })?;
         self.cells.put(slot, voxels.cells());
         self.counts.uploads += 1;
         self.counts.bytes +=
             u64::from(self.textures.shape.brick_edge).pow(3) * u64::from(self.textures.format.bytes());
-        Ok(encoder)
+        Ok(())
     }
 
     fn submit(&mut self, device: &GpuDevice, encoder: wgpu::CommandEncoder) {

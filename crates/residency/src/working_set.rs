@@ -113,13 +113,19 @@ impl WorkingSet {
 
     /// Uses a brick that is resident: it stays until the round ends. None where it is not.
     pub fn hold(&mut self, brick: BrickId) -> Option<SlotId> {
+        let slot = self.hold_again(brick)?;
+        self.counts.hits += 1;
+        Some(slot)
+    }
+
+    /// As [`WorkingSet::hold`], of a brick whose use was counted before.
+    pub fn hold_again(&mut self, brick: BrickId) -> Option<SlotId> {
         let slot = self.slot_of(brick)?;
         let used = self.tick();
         let hold =
             |resident: &mut Resident| *resident = Resident { used, drawn_in: 0, held: true, ..*resident };
         self.residents.edit(slot, hold);
         self.held.push(slot);
-        self.counts.hits += 1;
         Some(slot)
     }
 

@@ -46,7 +46,7 @@ pub struct RenderArgs {
     /// What draws
     #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
     pub backend: BackendChoice,
-    /// How a GPU draws
+    /// How a GPU draws; raycast by default
     #[arg(long, value_enum)]
     pub pass: Option<PassChoice>,
     /// What may be left out without changing the picture
@@ -61,7 +61,7 @@ pub struct RenderArgs {
     /// Memory for decoded bricks, with KB, MB, GB, KiB, MiB or GiB; a quarter of the machine's by default
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = parse::bytes)]
     pub memory: Option<u64>,
-    /// Memory of a GPU for bricks
+    /// Memory of a GPU for bricks, with KB, MB, GB, KiB, MiB or GiB; 512MiB by default
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = parse::bytes)]
     pub gpu_memory: Option<u64>,
     /// What stands behind the picture: #rrggbb or transparent; black by default. EXR keeps its alpha

@@ -53,7 +53,7 @@ pub struct SliceRound {
 }
 
 impl SliceRound {
-    /// Adds bricks that no ray meets two of.
+    /// Adds bricks that no ray meets two of, or parts of them, each brick's farthest first.
     pub fn add(&mut self, bricks: impl IntoIterator<Item = RoundBrick>) {
         let first = self.bricks.len();
         self.bricks.extend(bricks);
