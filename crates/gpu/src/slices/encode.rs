@@ -1,6 +1,8 @@
 use glassbrick_shaders::{DrawArgs, Pixels, QueryRange, SlicedBrick};
 use wgpu::{BufferUsages, LoadOp, Operations, StoreOp};
 
+use glassbrick_volume::PixelRect;
+
 use super::SlicesPass;
 use super::round::{Group, SLICE_INDICES, SliceRound};
 use crate::bindings::bind;
@@ -73,6 +75,21 @@ pub struct RoundEncoder<'a> {
     pub drawn_groups: usize,
     /// Bytes from one brick to the next, and from one range.
     pub stride: u32,
+    pub tile: PixelRect,
+}
+
+impl RoundEncoder<'_> {
+    /// Only pixels that a group can meet, of those of the tile; x, y, width and height in it.
+    fn scissor(&self, rect: &PixelRect) -> [u32; 4] {
+        let clipped =
+            |axis: usize, at: u32| at.clamp(self.tile.min[axis], self.tile.max[axis]) - self.tile.min[axis];
+        let [x, y] = [clipped(0, rect.min[0]), clipped(1, rect.min[1])];
+        [x, y, clipped(0, rect.max[0]) - x, clipped(1, rect.max[1]) - y]
+    }
+}
+
+fn set_scissor(pass: &mut wgpu::RenderPass, [x, y, width, height]: [u32; 4]) {
+    pass.set_scissor_rect(x, y, width, height);
 }
 
 impl SlicesPass {
@@ -89,7 +106,10 @@ impl SlicesPass {
         let mut encoder = device.device.create_command_encoder(&Default::default());
         for (number, group) in order.round.groups.iter().enumerate() {
             if order.style.asks || order.style.cuts_off {
-                self.ask(&mut encoder, order, &bound, group);
+                // What the group before drew may have become opaque; of the round before, anything.
+                let changed =
+                    number.checked_sub(1).map_or(&order.tile, |before| &order.round.groups[before].rect);
+                self.ask(&mut encoder, order, &bound, group, changed);
             }
             if order.style.asks {
                 let first = group.first_query as u32;
@@ -143,7 +163,14 @@ impl SlicesPass {
     }
 
     /// Finds the pixels that have become opaque, and asks about the boxes of a group.
-    fn ask(&self, encoder: &mut wgpu::CommandEncoder, order: &RoundEncoder, bound: &Bound, group: &Group) {
+    fn ask(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        order: &RoundEncoder,
+        bound: &Bound,
+        group: &Group,
+        changed: &PixelRect,
+    ) {
         let style = order.style;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("boxes"),
@@ -157,8 +184,10 @@ impl SlicesPass {
             pass.set_pipeline(&self.pipelines.opaque);
             pass.set_bind_group(1, &bound.accumulated, &[]);
             pass.set_stencil_reference(1);
+            set_scissor(&mut pass, order.scissor(changed));
             pass.draw(0..3, 0..1);
             pass.set_stencil_reference(0);
+            set_scissor(&mut pass, order.scissor(&order.tile));
         }
         if style.asks {
             pass.set_pipeline(&bound.boxes);
@@ -231,6 +260,7 @@ impl SlicesPass {
             });
             pass.set_pipeline(&self.pipelines.under);
             pass.set_bind_group(0, &bound.layer, &[]);
+            set_scissor(&mut pass, order.scissor(&group.rect));
             pass.draw(0..3, 0..1);
         }
     }

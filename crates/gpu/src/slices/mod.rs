@@ -140,6 +140,7 @@ impl SlicesPass {
                 style,
                 round: &round,
                 drawn_groups,
+                tile: *tile,
                 stride: parts.device.uniform_stride(size_of::<SlicedBrick>()),
             };
             let visible = self.submit(&order, residents)?;

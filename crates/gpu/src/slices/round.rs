@@ -1,5 +1,5 @@
 use glassbrick_shaders::{DrawArgs, SlicedBrick};
-use glassbrick_volume::PlannedBrick;
+use glassbrick_volume::{PixelRect, PlannedBrick};
 
 /// Queries of a set, at most.
 pub const MOST_QUERIES: usize = 4096;
@@ -27,6 +27,8 @@ pub struct Group {
     pub count: usize,
     /// Number of the first one's query and draw.
     pub first_query: usize,
+    /// The pixels of the picture that they can meet.
+    pub rect: PixelRect,
 }
 
 /// How many bricks, group by group of these sizes and drawn in so many parts each, one round takes; as many queries again
@@ -59,7 +61,9 @@ impl SliceRound {
         self.bricks.extend(bricks);
         let count = self.bricks.len() - first;
         if count > 0 {
-            self.groups.push(Group { first, count, first_query: self.queries });
+            let rect = self.bricks[first..].iter().map(|brick| brick.planned.footprint).reduce(union);
+            let rect = rect.expect("there is a brick");
+            self.groups.push(Group { first, count, first_query: self.queries, rect });
             self.queries = (self.queries + count).next_multiple_of(QUERY_ALIGNMENT);
         }
     }
@@ -91,11 +95,18 @@ impl SliceRound {
     }
 }
 
+/// The smallest rectangle that holds two.
+fn union(a: PixelRect, b: PixelRect) -> PixelRect {
+    PixelRect {
+        min: [a.min[0].min(b.min[0]), a.min[1].min(b.min[1])],
+        max: [a.max[0].max(b.max[0]), a.max[1].max(b.max[1])],
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use bytemuck::Zeroable;
-    use glassbrick_volume::PixelRect;
 
     fn brick(index: u32) -> RoundBrick {
         let footprint = PixelRect { min: [0, 0], max: [1, 1] };
