@@ -4,7 +4,7 @@
 #import glassbrick::atlas::{stored_value, gradient}
 #import glassbrick::cells::{cell_answer, behind_box, CELL_EDGE}
 #ifdef DVR
-#import glassbrick::transfer_function::{entry_of, extinction, color_of}
+#import glassbrick::transfer_function::look_up
 #import glassbrick::light::shade
 #endif
 
@@ -132,20 +132,21 @@ fn add(state: ptr<function, RayState>, slot: Slot, ray: Ray, number: u32) -> boo
     let texel = sample_voxel(ray, number) + slot.texel_from_voxel;
     let stored = stored_value(slot.texture, texel);
 #ifdef DVR
-    let entry = entry_of(stored);
-    let opacity_before = (*state).gathered.a;
-    let weight = (1.0 - opacity_before) * (1.0 - exp(-extinction(entry) * ray.step_length_mm));
-    let opacity = opacity_before + weight;
-    // A loop that runs once or not at all: some drivers compute both sides of a branch.
-    for (var shows = weight > 0.0; shows; shows = false) {
-        var color = color_of(entry);
+    let entry = look_up(stored);
+    let gathered = (*state).gathered;
+    let weight = (1.0 - gathered.a) * (1.0 - exp(-entry.a * ray.step_length_mm));
+    let opacity = gathered.a + weight;
 #ifdef SHADED
+    var color = entry.rgb;
+    if weight > 0.0 {
         color = shade(color, gradient(slot.texture, texel), ray);
+    }
+#else
+    let color = entry.rgb;
 #endif
-        (*state).gathered = vec4f((*state).gathered.rgb + weight * color, opacity);
-        if opacity >= 0.5 && (*state).surface == NO_SAMPLE {
-            (*state).surface = number + 1u;
-        }
+    (*state).gathered = vec4f(gathered.rgb + weight * color, opacity);
+    if opacity >= 0.5 && (*state).surface == NO_SAMPLE {
+        (*state).surface = number + 1u;
     }
     return opacity >= frame.opacity_cutoff;
 #else

@@ -3,7 +3,7 @@
 #import glassbrick::sliced_brick::brick
 #import glassbrick::atlas::{stored_value, gradient}
 #ifdef DVR
-#import glassbrick::transfer_function::{entry_of, extinction, color_of}
+#import glassbrick::transfer_function::look_up
 #import glassbrick::light::shade
 #endif
 
@@ -76,16 +76,13 @@ fn slice_sample(vertex: Vertex) -> Fragment {
     let texel = at + brick.texel_from_voxel;
     let stored = stored_value(0u, texel);
 #ifdef DVR
-    let entry = entry_of(stored);
-    let opacity = 1.0 - exp(-extinction(entry) * ray.step_length_mm);
-    var color = vec3f(0.0);
-    // A loop that runs once or not at all: some drivers compute both sides of a branch.
-    for (var shows = opacity > 0.0; shows; shows = false) {
-        color = color_of(entry);
+    let entry = look_up(stored);
+    let opacity = 1.0 - exp(-entry.a * ray.step_length_mm);
 #ifdef SHADED
-        color = shade(color, gradient(0u, texel), ray);
+    let color = shade(entry.rgb, gradient(0u, texel), ray);
+#else
+    let color = entry.rgb;
 #endif
-    }
     return Fragment(vec4f(opacity * color, opacity));
 #else
 #ifdef EXTREMUM

@@ -12,6 +12,7 @@ mod interactive;
 mod real_volumes;
 mod reports;
 mod skipping;
+mod tiers;
 
 use std::sync::OnceLock;
 

@@ -62,6 +62,13 @@ impl Backend {
     }
 }
 
+/// A device that was opened, and perhaps told to do with less, by `glassbrick-gpu`.
+impl From<GpuDevice> for Gpu {
+    fn from(device: GpuDevice) -> Self {
+        Self(Arc::new(device))
+    }
+}
+
 impl PartialEq for Gpu {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)

@@ -114,6 +114,7 @@ impl<'a> Renderer<'a> {
         let bricks = self.brick_counts(&first, level, &visible.bricks, in_frustum);
         let mut warnings = self.warnings.clone();
         warnings.extend(left_out(&first.damaged));
+        warnings.extend(self.another_pass(&first));
         warnings.extend(self.why_nothing_is_shown(&first.frame, &bricks));
         let milliseconds = |time: Duration| time.as_secs_f64() * 1e3;
         let peaks = process_memory::peaks();
@@ -219,6 +220,13 @@ impl<'a> Renderer<'a> {
             .residency
             .map_or(in_ram, |on_gpu| ResidencyCounts { bytes_read: in_ram.bytes_read, ..on_gpu });
         (counts, now.cache.load_time - before.cache.load_time)
+    }
+
+    /// A GPU may not be able to draw as it was asked to.
+    fn another_pass(&self, drawn: &Drawn) -> Option<String> {
+        let asked = self.request.pass.name();
+        let is_another = self.executor.backend() == "gpu" && drawn.pass != asked;
+        is_another.then(|| format!("this GPU cannot draw this by {asked}: {} drew it", drawn.pass))
     }
 
     /// A picture without content must not be silent about why.

@@ -101,10 +101,10 @@ pub fn frame_uniform(
     }
 }
 
-/// The baked columns as the look-up reads them: extinctions per mm, and then colours in linear light, each of four.
-pub fn entries(scene: &GpuScene) -> [Vec<f32>; 2] {
+/// The baked columns as the look-up reads them: linear light and extinction per mm.
+pub fn entries(scene: &GpuScene) -> Vec<[f32; 4]> {
     let baked = scene.transfer_function;
-    [baked.extinction.clone(), baked.color.iter().flat_map(|&[r, g, b]| [r, g, b, 0.0]).collect()]
+    baked.color.iter().zip(&baked.extinction).map(|(&[r, g, b], &extinction)| [r, g, b, extinction]).collect()
 }
 
 /// Clip depth of boxes from the slice that a corner lies in. All samples lie half a step in front of the eye or farther;

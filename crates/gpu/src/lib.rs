@@ -33,6 +33,7 @@ mod waiting;
 pub use adapter::AdapterChoice;
 pub use device::GpuDevice;
 pub use error::GpuError;
+pub use glassbrick_residency::TexelFormat;
 pub use renderer::GpuRenderer;
 pub use residents::UploadCounts;
 pub use scene::{GpuFrame, GpuPass, GpuScene};

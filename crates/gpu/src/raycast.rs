@@ -8,7 +8,7 @@ use glassbrick_shaders::{Pass, RayState};
 use glassbrick_volume::{BrickId, PixelRect, PlannedBrick};
 use wgpu::{BufferUsages, ShaderStages};
 
-use crate::bindings::{bind, layout_of, read_only, storage, uniform};
+use crate::bindings::{bind, layout_of, picture, read_only, storage, uniform};
 use crate::frame_uniform::{FrameParts, cell_question, frame_uniform};
 use crate::grown_buffer::GrownBuffer;
 use crate::read_back::ReadBack;
@@ -53,14 +53,13 @@ impl Raycast {
             ShaderStages::COMPUTE,
             &[
                 (0, uniform()),
-                (2, read_only()),
+                (2, picture()),
                 (3, read_only()),
                 (4, read_only()),
                 (5, read_only()),
                 (6, storage()),
                 (7, storage()),
                 (8, read_only()),
-                (9, read_only()),
             ],
         );
         Self {
@@ -201,14 +200,13 @@ impl Raycast {
             &self.layout,
             &[
                 (0, shared.frame.as_entire_binding()),
-                (2, shared.extinctions.binding()),
+                (2, shared.entries()),
                 (3, self.page_table.binding()),
                 (4, self.slot_places.binding()),
                 (5, self.reaches.binding()),
                 (6, self.states.binding()),
                 (7, self.fates.binding()),
                 (8, residents.cells.binding()),
-                (9, shared.colors.binding()),
             ],
         );
         let textures = atlas.all(device, &residents.textures);

@@ -105,7 +105,7 @@ impl GpuRenderer {
         let troubles = self.device.troubles();
         self.residents.set.begin_frame();
         self.residents.reserve(&self.device, scene.plan.bricks())?;
-        self.shared.write(&self.device, scene)?;
+        self.shared.write(&self.device, scene);
         let level = Level {
             desc: source.desc(),
             grid,

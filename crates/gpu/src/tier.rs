@@ -80,10 +80,11 @@ impl Tier {
             adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float).allowed_usages;
         let draws_f32 = f32_picture.contains(wgpu::TextureUsages::RENDER_ATTACHMENT);
         let is_software = !is_hardware(&adapter.get_info());
-        let bound = (limits.max_sampled_textures_per_shader_stage as usize).min(MOST_TEXTURES);
+        // The transfer function is one more.
+        let fits_all = limits.max_sampled_textures_per_shader_stage as usize > MOST_TEXTURES;
         Self {
             is_software,
-            textures: if is_software || bound < MOST_TEXTURES { 1 } else { MOST_TEXTURES },
+            textures: if is_software || !fits_all { 1 } else { MOST_TEXTURES },
             largest_volume_texture: limits.max_texture_dimension_3d,
             draws_f32,
             blends_f32: draws_f32 && has(Features::FLOAT32_BLENDABLE),

@@ -333,11 +333,7 @@ impl Bound {
             frame: bind(
                 device,
                 &pipelines.frame,
-                &[
-                    (0, shared.frame.as_entire_binding()),
-                    (2, shared.extinctions.binding()),
-                    (9, shared.colors.binding()),
-                ],
+                &[(0, shared.frame.as_entire_binding()), (2, shared.entries())],
             ),
             bricks: bind(
                 device,

@@ -33,17 +33,13 @@ impl SlicePipelines {
         let (device, blend_format) = (&gpu.device, gpu.tier.blend_format());
         let frame = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame of slices"),
-            entries: &[
-                (0, uniform(), ShaderStages::VERTEX_FRAGMENT),
-                (2, read_only(), ShaderStages::FRAGMENT),
-                (9, read_only(), ShaderStages::FRAGMENT),
-            ]
-            .map(|(binding, ty, visibility)| wgpu::BindGroupLayoutEntry {
-                binding,
-                visibility,
-                ty,
-                count: None,
-            }),
+            entries: &[(0, uniform(), ShaderStages::VERTEX_FRAGMENT), (2, picture(), ShaderStages::FRAGMENT)]
+                .map(|(binding, ty, visibility)| wgpu::BindGroupLayoutEntry {
+                    binding,
+                    visibility,
+                    ty,
+                    count: None,
+                }),
         });
         let brick = layout_of(device, "brick", ShaderStages::VERTEX_FRAGMENT, &[(0, uniform_parts())]);
         let picture_layout = layout_of(device, "picture", ShaderStages::FRAGMENT, &[(0, picture())]);
