@@ -32,9 +32,8 @@ const NO_SAMPLE: u32 = 0u;
 const ASKED_FOR: u32 = 1u;
 const RENDERED: u32 = 2u;
 
-@group(0) @binding(3) var<storage, read> page_table: array<u32>;
-// First texel of each slot, and its texture.
-@group(0) @binding(4) var<storage, read> slot_places: array<vec4u>;
+// Of each brick: its entry, and where its slot lies: along x, y and z in bricks, 9 bits each, and the texture.
+@group(0) @binding(3) var<storage, read> page_table: array<vec2u>;
 // Smallest and largest stored value that samples in a brick can have.
 @group(0) @binding(5) var<storage, read> reaches: array<vec2f>;
 @group(0) @binding(6) var<storage, read_write> states: array<RayState>;
@@ -82,7 +81,8 @@ fn find(state: RayState, ray: Ray, first: u32) -> Found {
         }
         let brick = owner(at);
         found.index = brick_index(brick);
-        found.entry = page_table[found.index];
+        let page = page_table[found.index];
+        found.entry = page.x;
         let is_planned = found.entry < NOT_PLANNED || found.entry == MISSING;
         // The brick, or all those around it that are not planned either.
         let apart = select(f32(found.entry - NOT_PLANNED), 1.0, is_planned);
@@ -96,9 +96,9 @@ fn find(state: RayState, ray: Ray, first: u32) -> Found {
         counts = counts && !(skips && is_unchanged_by(state, max(ranks.x, ranks.y)));
 #endif
         let is_resident = found.entry < NOT_PLANNED;
-        let place = slot_places[select(0u, found.entry, is_resident)];
+        let place = vec3u(page.y, page.y >> 9u, page.y >> 18u) & vec3u(0x1ffu);
         let origin = core_start(brick) - f32(frame.halo);
-        found.slot = Slot(place.w, vec3f(place.xyz) - origin);
+        found.slot = Slot(page.y >> 27u, vec3f(place) * (core + 2.0 * f32(frame.halo)) - origin);
 #ifndef MEAN
         if counts && is_resident && frame.cell_words > 0u {
             let cell = floor((at - origin) / CELL_EDGE);
@@ -170,12 +170,13 @@ fn add(state: ptr<function, RayState>, slot: Slot, ray: Ray, number: u32) -> boo
 
 @compute @workgroup_size(8, 8)
 fn raycast(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= frame.tile_size) {
+    let pixel = id.xy + frame.march_min;
+    if any(pixel >= frame.march_max) {
         return;
     }
-    let place = id.y * frame.tile_size.x + id.x;
+    let place = pixel.y * frame.tile_size.x + pixel.x;
     var state = states[place];
-    let ray = ray_of(id.xy + frame.tile_origin);
+    let ray = ray_of(pixel + frame.tile_origin);
     let count = frame.sample_count;
     var number = state.next;
     if number == 0u {

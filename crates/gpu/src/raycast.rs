@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use glassbrick_residency::PageTable;
+use glassbrick_residency::{NOT_PLANNED, PageTable, SlotId};
 use glassbrick_shaders::{Pass, RayState};
 use glassbrick_volume::{BrickId, PixelRect, PlannedBrick};
 use wgpu::{BufferUsages, ShaderStages};
@@ -27,7 +27,6 @@ const GROUP_EDGE: u32 = 8;
 pub struct Raycast {
     layout: wgpu::BindGroupLayout,
     page_table: GrownBuffer,
-    slot_places: GrownBuffer,
     reaches: GrownBuffer,
     states: GrownBuffer,
     fates: GrownBuffer,
@@ -55,7 +54,6 @@ impl Raycast {
                 (0, uniform()),
                 (2, picture()),
                 (3, read_only()),
-                (4, read_only()),
                 (5, read_only()),
                 (6, storage()),
                 (7, storage()),
@@ -65,7 +63,6 @@ impl Raycast {
         Self {
             layout,
             page_table: GrownBuffer::new("page table", BufferUsages::STORAGE | BufferUsages::COPY_DST),
-            slot_places: GrownBuffer::new("slot places", BufferUsages::STORAGE | BufferUsages::COPY_DST),
             reaches: GrownBuffer::new("reaches", BufferUsages::STORAGE | BufferUsages::COPY_DST),
             states: GrownBuffer::new(
                 "ray states",
@@ -93,7 +90,7 @@ impl Raycast {
             PageTable::new(number, level.grid, planned.iter().map(|brick| brick.index), &residents.set);
         let size = [tile.max[0] - tile.min[0], tile.max[1] - tile.min[1]];
         let (bricks, rays) = (level.grid.len(), (size[0] * size[1]) as usize);
-        self.make_buffers(parts, residents, bricks, rays)?;
+        self.make_buffers(parts, bricks, rays)?;
         let fates_read = ReadBack::new(&device.device, bricks as u64 * 4);
         let mut drawn = RaycastTile {
             states: Vec::new(),
@@ -102,20 +99,26 @@ impl Raycast {
             missing: Vec::new(),
             rounds: 0,
         };
+        let march = marched(tile, planned);
         let question = cell_question(parts);
         residents.cells.answer(device, question.clone(), residents.set.slots())?;
-        let uniform = frame_uniform(parts, residents.cells.layout(), tile);
+        let uniform = frame_uniform(parts, residents.cells.layout(), tile, &march);
         device.queue.write_buffer(&parts.shared.frame, 0, bytemuck::bytes_of(&uniform));
         let mut is_first = true;
         loop {
             drawn.rounds += 1;
             if let Some(dirty) = table.take_dirty() {
-                let entries = &table.entries()[dirty.clone()];
-                let offset = dirty.start as u64 * 4;
-                device.queue.write_buffer(self.page_table.get(), offset, bytemuck::cast_slice(entries));
+                let shape = &residents.textures.shape;
+                let page = |&entry: &u32| {
+                    let is_slot = entry < NOT_PLANNED;
+                    [entry, if is_slot { shape.place(SlotId(entry)).packed(shape.brick_edge) } else { 0 }]
+                };
+                let pages: Vec<[u32; 2]> = table.entries()[dirty.clone()].iter().map(page).collect();
+                let offset = (dirty.start * size_of::<[u32; 2]>()) as u64;
+                device.queue.write_buffer(self.page_table.get(), offset, bytemuck::cast_slice(&pages));
             }
             residents.cells.answer(device, question.clone(), residents.set.slots())?;
-            self.march(parts, residents, size, &fates_read, is_first);
+            self.march(parts, residents, &march, &fates_read, is_first);
             is_first = false;
             let fates: Vec<u32> = fates_read.read(device, bricks, <[u32]>::to_vec)?;
             for (rendered, fate) in drawn.rendered.iter_mut().zip(&fates) {
@@ -163,24 +166,11 @@ impl Raycast {
         Ok(drawn)
     }
 
-    fn make_buffers(
-        &mut self,
-        parts: &FrameParts,
-        residents: &Residents,
-        bricks: usize,
-        rays: usize,
-    ) -> Result<(), GpuError> {
+    fn make_buffers(&mut self, parts: &FrameParts, bricks: usize, rays: usize) -> Result<(), GpuError> {
         let device = parts.device;
-        self.page_table.grow(device, bricks as u64 * 4)?;
+        self.page_table.grow(device, bricks as u64 * 8)?;
         self.fates.grow(device, bricks as u64 * 4)?;
         self.states.grow(device, (rays * size_of::<RayState>()) as u64)?;
-        let places: Vec<[u32; 4]> = (0..residents.set.slots())
-            .map(|slot| {
-                let place = residents.textures.shape.place(glassbrick_residency::SlotId(slot));
-                place.texel.extend(place.texture).to_array()
-            })
-            .collect();
-        self.slot_places.write(device, bytemuck::cast_slice(&places))?;
         let reaches: Vec<[f32; 2]> = parts.ranges.iter().map(|range| range.reach).collect();
         self.reaches.write(device, bytemuck::cast_slice(&reaches))
     }
@@ -190,7 +180,7 @@ impl Raycast {
         &self,
         parts: &FrameParts,
         residents: &Residents,
-        size: [u32; 2],
+        march: &PixelRect,
         fates_read: &ReadBack,
         is_first: bool,
     ) {
@@ -202,7 +192,6 @@ impl Raycast {
                 (0, shared.frame.as_entire_binding()),
                 (2, shared.entries()),
                 (3, self.page_table.binding()),
-                (4, self.slot_places.binding()),
                 (5, self.reaches.binding()),
                 (6, self.states.binding()),
                 (7, self.fates.binding()),
@@ -221,7 +210,8 @@ impl Raycast {
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &bindings, &[]);
         pass.set_bind_group(1, &textures, &[]);
-        pass.dispatch_workgroups(size[0].div_ceil(GROUP_EDGE), size[1].div_ceil(GROUP_EDGE), 1);
+        let groups = [0, 1].map(|axis| (march.max[axis] - march.min[axis]).div_ceil(GROUP_EDGE));
+        pass.dispatch_workgroups(groups[0], groups[1], 1);
         drop(pass);
         encoder.copy_buffer_to_buffer(self.fates.get(), 0, fates_read.buffer(), 0, self.fates.used_bytes());
         device.queue.submit([encoder.finish()]);
@@ -234,5 +224,33 @@ impl Raycast {
         encoder.copy_buffer_to_buffer(self.states.get(), 0, read.buffer(), 0, bytes);
         device.queue.submit([encoder.finish()]);
         read.read(device, rays, <[RayState]>::to_vec)
+    }
+}
+
+/// The pixels of a tile, counted from its first, that can meet any of the planned bricks.
+fn marched(tile: &PixelRect, planned: &[PlannedBrick]) -> PixelRect {
+    let of_tile = |axis: usize, at: u32| at.clamp(tile.min[axis], tile.max[axis]) - tile.min[axis];
+    let nothing = PixelRect { min: [0; 2], max: [0; 2] };
+    let both = |a: PixelRect, b: PixelRect| PixelRect {
+        min: [0, 1].map(|axis| a.min[axis].min(b.min[axis])),
+        max: [0, 1].map(|axis| a.max[axis].max(b.max[axis])),
+    };
+    planned.iter().map(|brick| brick.footprint).reduce(both).map_or(nothing, |rect| PixelRect {
+        min: [0, 1].map(|axis| of_tile(axis, rect.min[axis])),
+        max: [0, 1].map(|axis| of_tile(axis, rect.max[axis])),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_pixels_that_can_meet_a_brick_are_marched() {
+        let tile = PixelRect { min: [100, 50], max: [200, 150] };
+        let brick = |min, max| PlannedBrick { index: 0, footprint: PixelRect { min, max } };
+        let bricks = [brick([90, 70], [120, 80]), brick([150, 60], [160, 65])];
+        assert_eq!(marched(&tile, &bricks), PixelRect { min: [0, 10], max: [60, 30] });
+        assert_eq!(marched(&tile, &[]), PixelRect { min: [0; 2], max: [0; 2] });
     }
 }

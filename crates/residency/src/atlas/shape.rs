@@ -5,6 +5,9 @@ use crate::{MOST_SLOTS, SlotId};
 /// Voxels along each axis of an atlas texture's cube, where bricks are not larger.
 const CUBE_EDGE: u32 = 256;
 
+/// Slots of a texture along an axis, at most: places are packed into so many bits.
+const MOST_ALONG_AXIS: u32 = (1 << SlotPlace::AXIS_BITS) - 1;
+
 /// How slots lie in atlas textures.
 ///
 /// A texture is made of cubes of 256³ voxels, each of as many slots as fit (4×4×4 bricks of 64³). Most devices are
@@ -27,6 +30,17 @@ pub struct SlotPlace {
     pub texel: UVec3,
 }
 
+impl SlotPlace {
+    const AXIS_BITS: u32 = 9;
+
+    /// Its place in 32 bits, as shaders read it: along x, y and z in bricks, from the lowest bits on, and the texture.
+    pub fn packed(&self, brick_edge: u32) -> u32 {
+        let UVec3 { x, y, z } = self.texel / brick_edge;
+        let bits = Self::AXIS_BITS;
+        x | y << bits | z << (2 * bits) | self.texture << (3 * bits)
+    }
+}
+
 impl AtlasShape {
     pub fn new(brick_edge: u32, cubes_per_texture: u32) -> Self {
         let cube_edge = brick_edge.next_power_of_two().max(CUBE_EDGE);
@@ -35,7 +49,7 @@ impl AtlasShape {
 
     /// Cubes that so many textures of at most `largest` voxels an axis can have.
     pub fn most_cubes(&self, textures: usize, largest: u32) -> u32 {
-        let along_axis = (largest / self.cube_edge).max(1);
+        let along_axis = (largest / self.cube_edge).min(MOST_ALONG_AXIS / self.slots_per_axis()).max(1);
         let in_texture = (1u32 << along_axis.ilog2()).saturating_pow(3);
         in_texture.saturating_mul(textures as u32).min(MOST_SLOTS / self.slots_per_cube())
     }
@@ -114,6 +128,7 @@ mod tests {
         assert_eq!((shape.cube_edge, shape.slots_per_cube()), (256, 64));
         assert_eq!(shape.place(SlotId(63)), SlotPlace { texture: 0, texel: UVec3::splat(192) });
         assert_eq!(shape.place(SlotId(64)), SlotPlace { texture: 1, texel: UVec3::ZERO });
+        assert_eq!(shape.place(SlotId(64 + 1 + 2 * 4 + 3 * 16)).packed(64), 1 | 2 << 9 | 3 << 18 | 1 << 27);
     }
 
     #[test]
