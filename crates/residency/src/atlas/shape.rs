@@ -12,7 +12,7 @@ const MOST_ALONG_AXIS: u32 = (1 << SlotPlace::AXIS_BITS) - 1;
 ///
 /// A texture is made of cubes of 256³ voxels, each of as many slots as fit (4×4×4 bricks of 64³). Most devices are
 /// given textures of one cube each; where one large texture serves better, its cubes double in z, then y, then x, so
-/// that positions stay small and exact.
+/// that positions stay small and exact. Slots stand close together whatever the cubes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AtlasShape {
     pub brick_edge: u32,
@@ -82,7 +82,7 @@ impl AtlasShape {
         let (cube, slot) = (slot / self.slots_per_cube(), slot % self.slots_per_cube());
         let n = self.slots_per_axis();
         let in_cube = UVec3::new(slot % n, slot / n % n, slot / (n * n));
-        SlotPlace { texture, texel: cube_place(cube) * self.cube_edge + in_cube * self.brick_edge }
+        SlotPlace { texture, texel: (cube_place(cube) * n + in_cube) * self.brick_edge }
     }
 }
 
@@ -108,8 +108,7 @@ mod tests {
             assert!(place.texture < textures);
             assert!((place.texel + shape.brick_edge).cmple(shape.texture_extent()).all(), "{place:?}");
             assert!(seen.insert((place.texture, place.texel.to_array())), "{place:?} twice");
-            let in_cube = place.texel % shape.cube_edge;
-            assert_eq!(in_cube % shape.brick_edge, UVec3::ZERO);
+            assert_eq!(place.texel % shape.brick_edge, UVec3::ZERO);
         }
     }
 
