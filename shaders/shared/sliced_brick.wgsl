@@ -2,7 +2,7 @@
 
 // A brick as slices and boxes are drawn of it. Written once in Rust as `SlicedBrick`.
 struct SlicedBrick {
-    // The corners of its box, a pixel larger, in clip space before the division; z is the slice that they lie in.
+    // The corners of its box, a little larger, in clip space before the division; z is the slice that they lie in.
     // Bit 0 of a corner's number chooses along the first axis and so on; corner 0 is nearest, corner 7 farthest.
     corners: array<vec4f, 8>,
     // The half-open box of samples that it owns.

@@ -8,9 +8,14 @@ use super::parts::{BrickPart, BrickPlace, Eye};
 /// Boxes are taken this much larger, in voxels, than they are, for the rounding of positions to f32.
 const SLACK_VOXELS: f64 = 1.0 / 64.0;
 
+/// And this much in the picture, in pixels: rasterizers take pixels by their centres, as rays do, and place corners on a
+/// grid of 1/256 pixel. A whole pixel would cost a third more fragments of bricks seen from afar, and let hidden ones peep
+/// out.
+const SLACK_PIXELS: f64 = 1.0 / 8.0;
+
 /// Where bricks and their slices lie in a tile of the picture.
 ///
-/// Proxies are a pixel larger than bricks: which samples a brick owns is decided by each fragment.
+/// Proxies are a little larger than bricks: which samples a brick owns is decided by each fragment.
 pub struct SliceGeometry {
     grid: BrickGrid,
     /// Right, up (each in units of half the tile at depth 1) and slice, as directions in voxels and offsets.
@@ -95,7 +100,7 @@ impl SliceGeometry {
         }
         let farthest_mm = self.depth_mm[0] + farthest * self.depth_mm[1];
         let pixel_mm = if self.perspective { self.pixel_mm * farthest_mm } else { self.pixel_mm };
-        let more = self.voxels_per_mm * pixel_mm;
+        let more = self.voxels_per_mm * (SLACK_PIXELS * pixel_mm);
         let larger = [low - more, high + more];
         let core_start = self.grid.core_start(brick).as_vec3();
         let texel = slot.map_or(core_start, |slot| slot.texel.as_vec3()) + self.grid.layout.halo as f32;
