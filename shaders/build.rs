@@ -10,7 +10,7 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga_oil::compose::{ComposableModuleDescriptor, Composer, NagaModuleDescriptor, ShaderDefValue};
 
 /// Shared modules, each after those that it imports.
-const SHARED: [&str; 9] = [
+const SHARED: [&str; 12] = [
     "frame",
     "rays",
     "cells",
@@ -18,6 +18,9 @@ const SHARED: [&str; 9] = [
     "transfer_function",
     "atlas",
     "light",
+    "gathered",
+    "search",
+    "samples",
     "sliced_brick",
     "full_screen",
 ];

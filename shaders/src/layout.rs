@@ -55,7 +55,7 @@ pub struct RayFan {
     pub step_low: [[f32; 4]; 3],
 }
 
-/// What a ray of the raycast pass has gathered, and where it goes on; zeros at the start. See `passes/raycast.wgsl`.
+/// What a ray of the raycast pass has gathered, and where it goes on; zeros at the start. See `shared/gathered.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RayState {
