@@ -2,7 +2,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use glassbrick_residency::{
-    AtlasShape, AtlasTextures, Load, Loaded, Loader, Priority, Round, SlotId, StagingRing, VoxelEncoding,
+    AtlasShape, AtlasTextures, Load, Loaded, Loader, Priority, SlotId, StagingRing, VoxelEncoding,
     WorkingSet, WorkingSetCounts, next_round,
 };
 use glassbrick_volume::{Brick, BrickId, BrickSource, ReadError};
@@ -142,7 +142,9 @@ impl Residents {
         most_loads: usize,
         allow_damaged: bool,
     ) -> Result<LoadedRound, GpuError> {
-        let round = self.plan_round(device, wanted, most_loads)?;
+        let missing = wanted.iter().filter(|&&brick| self.set.slot_of(brick).is_none()).count();
+        self.make_room(device, missing.min(most_loads))?;
+        let round = next_round(&mut self.set, wanted, most_loads);
         let mut slots: HashMap<BrickId, SlotId> =
             round.loads.iter().map(|load| (load.brick, load.slot)).collect();
         let bricks: Vec<BrickId> = round.loads.iter().map(|load| load.brick).collect();
@@ -190,22 +192,11 @@ impl Residents {
         Ok(())
     }
 
-    /// Plans a round and makes the textures that it needs. Where the device's memory ends before, the round is made of
-    /// what there is.
-    fn plan_round(
-        &mut self,
-        device: &GpuDevice,
-        wanted: &[BrickId],
-        most_loads: usize,
-    ) -> Result<Round, GpuError> {
-        loop {
-            let round = next_round(&mut self.set, wanted, most_loads);
-            let texture = |load: &Load| self.textures.shape.place(load.slot).texture as usize + 1;
-            let textures = round.loads.iter().map(texture).max().unwrap_or(0);
-            if self.make(device, textures)? >= textures {
-                return Ok(round);
-            }
-        }
+    /// Makes room for so many bricks more, as far as the device's memory goes, before any of them is given a slot: free
+    /// slots are given lowest first.
+    fn make_room(&mut self, device: &GpuDevice, bricks: usize) -> Result<(), GpuError> {
+        let slots = (self.set.resident() + bricks).min(self.set.slots() as usize);
+        self.make(device, slots.div_ceil(self.textures.shape.slots_per_texture() as usize))
     }
 
     /// Lets bricks go that were given slots and did not come.
@@ -262,9 +253,8 @@ impl Residents {
         if self.set.slot_of(brick).is_some() {
             return Ok(None);
         }
-        let Some(admitted) = self.set.admit(brick) else { return Ok(None) };
-        let textures = self.textures.shape.place(admitted.slot).texture as usize + 1;
-        Ok((self.make(device, textures)? >= textures).then_some(admitted.slot))
+        self.make_room(device, 1)?;
+        Ok(self.set.admit(brick).map(|admitted| admitted.slot))
     }
 
     /// What happened in the slots, and what was uploaded, since this was asked last.
@@ -314,10 +304,10 @@ impl Residents {
         self.staging.submitted();
     }
 
-    /// Makes textures up to a number; returns how many there are. Where the device's memory ends before, slots end there.
-    fn make(&mut self, device: &GpuDevice, count: usize) -> Result<usize, GpuError> {
+    /// Makes textures up to a number. Where the device's memory ends before, slots end there.
+    fn make(&mut self, device: &GpuDevice, count: usize) -> Result<(), GpuError> {
         if self.textures.textures().len() >= count {
-            return Ok(self.textures.textures().len());
+            return Ok(());
         }
         let made = pollster::block_on(self.textures.make(&device.device, count));
         self.peak_bytes = self.peak_bytes.max(self.textures.bytes());
@@ -328,7 +318,7 @@ impl Residents {
             self.most_slots = made as u32 * self.textures.shape.slots_per_texture();
             self.set.limit(self.most_slots);
         }
-        Ok(made)
+        Ok(())
     }
 
     fn out_of_memory(&self) -> GpuError {
