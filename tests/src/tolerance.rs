@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::reference::Mode;
+
 /// What an executor must keep to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
@@ -19,6 +21,21 @@ pub const GPU: Tolerance = Tolerance { largest: 4e-3, mean: 2e-4 };
 pub const GPU_HALF_FLOAT: Tolerance = Tolerance { largest: 3e-2, mean: 3e-3 };
 /// One CPU kernel against itself: bricked or not, whatever the memory, threads, skipping and source.
 pub const SAME_KERNEL: Tolerance = Tolerance { largest: 1e-6, mean: 1e-6 };
+
+/// Holds depths to the reference's. They are sample planes, `plane_mm` apart: a sample more or less of rounding at A = 0.5 is
+/// the next plane, and rare; extremal samples that are equal but for rounding may be told apart either way.
+///
+/// # Panics
+/// When more depths differ than that explains.
+pub fn assert_depths(name: &str, mode: Mode, plane_mm: f64, drawn: &[f32], truth: &[f64]) {
+    let differs = |(&drawn, &truth): (&f32, &f64)| {
+        let drawn = f64::from(drawn);
+        drawn != truth && (drawn - truth).abs() > 1e-4 * plane_mm
+    };
+    let off = drawn.iter().zip(truth).filter(|&pair| differs(pair)).count();
+    let allowed = 1 + truth.len() / if mode == Mode::Dvr { 500 } else { 50 };
+    assert!(drawn.len() == truth.len() && off <= allowed, "{name}: {off} of {} depths differ", truth.len());
+}
 
 /// How far two pictures are apart. A pixel's difference is the largest of its four channels'.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,7 +9,7 @@ use glassbrick::{
 use glassbrick_tests::drawing::{camera, desc, draw, draw_with, native_bytes, request};
 use glassbrick_tests::reference::{self, Mode, render};
 use glassbrick_tests::scenes::{Scene, scenes};
-use glassbrick_tests::tolerance::{CPU, SAME_KERNEL, compare};
+use glassbrick_tests::tolerance::{CPU, SAME_KERNEL, assert_depths, compare};
 
 /// A brick that holds any of the scenes' volumes whole.
 const UNBRICKED: u32 = 256;
@@ -52,21 +52,13 @@ fn the_cpu_draws_every_scene_as_the_reference_does() {
     assert!(off.is_empty(), "{}", off.join("\n"));
 }
 
-/// Depths are sample planes: a sample more or less of rounding at A = 0.5 is the next plane, and rare.
 #[test]
 fn depth_is_that_of_the_reference() {
     for scene in scenes() {
         let truth = render(&scene.reference());
-        let drawn = draw(scene, 32);
-        let plane = scene.step * desc(scene).smallest_spacing_mm();
-        let differs = |(&drawn, &truth): (&f32, &f64)| {
-            let drawn = f64::from(drawn);
-            drawn != truth && (drawn - truth).abs() > 1e-4 * plane
-        };
-        let off = drawn.frame.depth_mm.iter().zip(&truth.z).filter(|&pair| differs(pair)).count();
-        // Extremal samples that are equal but for rounding may be told apart either way.
-        let allowed = if scene.mode == Mode::Dvr { 1 + truth.z.len() / 500 } else { 1 + truth.z.len() / 50 };
-        assert!(off <= allowed, "{}: {off} of {} depths differ", scene.name, truth.z.len());
+        let drawn = draw(scene, 32).frame.depth_mm;
+        let plane_mm = scene.step * desc(scene).smallest_spacing_mm();
+        assert_depths(&scene.name, scene.mode, plane_mm, &drawn, &truth.z);
     }
 }
 

@@ -4,7 +4,7 @@ use glassbrick::{BrickLayout, Gpu, GpuPass};
 use glassbrick_tests::drawing::desc;
 use glassbrick_tests::gpu::gpu;
 use glassbrick_tests::reference::Mode;
-use glassbrick_tests::tolerance::{GPU, compare};
+use glassbrick_tests::tolerance::{GPU, assert_depths, compare};
 
 use super::{FEW_SLOTS, Memory, ONE_SLOT, ONE_TEXTURE, draw, scenes_and_truths};
 
@@ -51,21 +51,13 @@ fn slices_draw_every_scene_as_the_reference_does() {
     agrees_in_every_way(GpuPass::Slices);
 }
 
-/// Depths are sample planes: a sample more or less of rounding at A = 0.5 is the next plane, and rare.
 #[test]
 fn depth_by_rays_is_that_of_the_reference() {
     let Some(gpu) = gpu() else { return };
     for (scene, truth) in scenes_and_truths() {
-        let drawn = draw(gpu, GpuPass::Raycast, (FEW_SLOTS, ONE_TEXTURE), scene, |_| ());
-        let plane = scene.step * desc(scene).smallest_spacing_mm();
-        let differs = |(&drawn, &truth): (&f32, &f64)| {
-            let drawn = f64::from(drawn);
-            drawn != truth && (drawn - truth).abs() > 1e-4 * plane
-        };
-        let off = drawn.frame.depth_mm.iter().zip(&truth.z).filter(|&pair| differs(pair)).count();
-        // Extremal samples that are equal but for rounding may be told apart either way.
-        let allowed = if scene.mode == Mode::Dvr { 1 + truth.z.len() / 500 } else { 1 + truth.z.len() / 50 };
-        assert!(off <= allowed, "{}: {off} of {} depths differ", scene.name, truth.z.len());
+        let drawn = draw(gpu, GpuPass::Raycast, (FEW_SLOTS, ONE_TEXTURE), scene, |_| ()).frame.depth_mm;
+        let plane_mm = scene.step * desc(scene).smallest_spacing_mm();
+        assert_depths(&scene.name, scene.mode, plane_mm, &drawn, &truth.z);
     }
 }
 

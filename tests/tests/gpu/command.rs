@@ -2,29 +2,21 @@
 
 use std::fs;
 
-use glassbrick::{BrickLayout, Codec, Gpu, GpuPass, Renderer};
+use glassbrick::{BrickLayout, Gpu, GpuPass, Renderer};
 use glassbrick_tests::drawing::request;
 use glassbrick_tests::gpu::{ADAPTER_VARIABLE, gpu};
 use serde_json::{Value, json};
 
 use super::{PASSES, needed_bytes, on, texture_bytes, volume};
 use crate::binary::{NO_DRIVERS, glassbrick, glassbrick_with};
-use crate::store::damage::{EDGE, scene};
-use crate::store::{Scratch, assert_one_line, failed};
+use crate::store::damage::{EDGE, prepared, scene};
+use crate::store::{assert_one_line, failed};
 
 /// No adapter has this name.
 const NONE_SUCH: &str = "nonesuch";
 
 const RENDER: &str = "render {}/v.zarr --tf {}/tf.json --level 0 --size 24x18 --threads 2 --backend gpu \
                       -o {}/a.exr --report {}/r.json";
-
-fn prepared() -> Scratch {
-    let scratch = Scratch::new();
-    scratch.store(&scene(), EDGE, Codec::Lz4);
-    let tf = r#"{"points":[{"value":500,"color":[1,1,1],"opacity":0},{"value":900,"color":[1,1,1],"opacity":0.1}]}"#;
-    scratch.file("tf.json", tf.as_bytes());
-    scratch
-}
 
 #[test]
 fn the_command_draws_by_either_pass_and_reports_it() {

@@ -17,6 +17,15 @@ pub fn scene() -> Scene {
 
 pub const EDGE: u32 = 16;
 
+/// The scene in a store, and a transfer function beside it for the command.
+pub fn prepared() -> Scratch {
+    let scratch = Scratch::new();
+    scratch.store(&scene(), EDGE, Codec::Lz4);
+    let tf = r#"{"points":[{"value":500,"color":[1,1,1],"opacity":0},{"value":900,"color":[1,1,1],"opacity":0.1}]}"#;
+    scratch.file("tf.json", tf.as_bytes());
+    scratch
+}
+
 fn settings() -> OpenSettings {
     OpenSettings { threads: Some(2), ..OpenSettings::default() }
 }

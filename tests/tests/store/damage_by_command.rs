@@ -2,10 +2,9 @@
 
 use std::fs;
 
-use glassbrick::Codec;
 use serde_json::{Value, json};
 
-use super::damage::{EDGE, scene};
+use super::damage::prepared;
 use super::damage_kinds::{Damage, KINDS};
 use super::{Scratch, failed};
 use crate::binary::glassbrick_in_little_memory;
@@ -13,14 +12,6 @@ use crate::robustness::{EXIT_FAILURE, refused};
 
 const RENDER: &str =
     "render {}/v.zarr --tf {}/tf.json --level 0 --skip empty --size 16x16 --threads 2 -o {}/a.png";
-
-fn prepared() -> Scratch {
-    let scratch = Scratch::new();
-    scratch.store(&scene(), EDGE, Codec::Lz4);
-    let tf = r#"{"points":[{"value":500,"color":[1,1,1],"opacity":0},{"value":900,"color":[1,1,1],"opacity":0.1}]}"#;
-    scratch.file("tf.json", tf.as_bytes());
-    scratch
-}
 
 #[test]
 fn damage_is_told_in_one_line() {
