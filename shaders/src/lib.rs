@@ -32,6 +32,11 @@ pub enum Pixels {
 }
 
 impl Pixels {
+    /// Whether colours are composited; else values are projected.
+    pub const fn is_dvr(self) -> bool {
+        matches!(self, Self::Dvr | Self::DvrShaded)
+    }
+
     fn defined(self) -> &'static [&'static str] {
         match self {
             Self::Dvr => &["DVR"],

@@ -8,7 +8,7 @@ use glassbrick_volume::{Brick, Frame, FrameRays, PixelRect, PlannedBrick, ReadEr
 use rayon::prelude::*;
 
 use crate::executor::{CpuFrame, Picture};
-use crate::kernel::{Kernel, NO_SAMPLE, common, overlap};
+use crate::kernel::{Kernel, NO_SAMPLE, common};
 use crate::tiles::TILE;
 
 /// Pixels along a block's side: a whole number of tiles.
@@ -50,7 +50,7 @@ pub fn draw<K: Kernel>(kernel: &K, picture: Picture) -> Result<CpuFrame, ReadErr
             let prepared =
                 prepared[place].get_or_init(|| kernel.prepare(picture.view(bricks[place], voxels)));
             if let Some(prepared) = prepared {
-                let met = tiles.iter_mut().zip(&rects).filter(|(_, rect)| overlap(rect, &footprint));
+                let met = tiles.iter_mut().zip(&rects).filter(|(_, rect)| rect.overlaps(&footprint));
                 picture.count(&brick, met.map(|(tile, _)| kernel.add_brick(tile, prepared)).sum());
             }
         }

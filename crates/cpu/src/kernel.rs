@@ -65,13 +65,8 @@ impl<'a> BrickView<'a> {
 
 /// The pixels that two rectangles have in common.
 pub fn common(a: &PixelRect, b: &PixelRect) -> Option<PixelRect> {
-    overlap(a, b).then(|| PixelRect {
+    a.overlaps(b).then(|| PixelRect {
         min: [0, 1].map(|axis| a.min[axis].max(b.min[axis])),
         max: [0, 1].map(|axis| a.max[axis].min(b.max[axis])),
     })
-}
-
-/// Whether two rectangles of pixels have one in common.
-pub fn overlap(a: &PixelRect, b: &PixelRect) -> bool {
-    (0..2).all(|axis| a.min[axis] < b.max[axis] && b.min[axis] < a.max[axis])
 }

@@ -1,7 +1,7 @@
 use glam::{UVec2, UVec3, Vec3};
 use glassbrick_residency::{AtlasShape, VoxelEncoding};
 use glassbrick_shaders::{Frame, Pixels};
-use glassbrick_volume::{BrickGrid, BrickRange, Mode, Phong, PixelRect, ShownValues, Skip, VolumeDesc};
+use glassbrick_volume::{BrickGrid, BrickRange, Phong, PixelRect, ShownValues, Skip, VolumeDesc};
 
 use crate::atlas_bindings::AtlasBindings;
 use crate::ray_fan::ray_fan;
@@ -32,12 +32,6 @@ pub struct FrameParts<'a> {
     pub waiting: Waiting,
 }
 
-/// 1 where projections look for the largest stored value, −1 for the smallest: a negative slope turns the largest value
-/// into the smallest stored one.
-pub fn sign(mode: Mode, desc: &VolumeDesc) -> f32 {
-    if (mode != Mode::Minip) == (desc.rescale.slope > 0.0) { 1.0 } else { -1.0 }
-}
-
 /// What is asked of the cells of bricks; nothing where every sample counts, or every sample is to be taken.
 pub fn cell_question(parts: &FrameParts) -> Option<CellQuestion> {
     let (scene, rescale) = (parts.scene, parts.level.desc.rescale);
@@ -46,7 +40,7 @@ pub fn cell_question(parts: &FrameParts) -> Option<CellQuestion> {
             Some(CellQuestion::Distance(ShownValues::new(&scene.transfer_function.bands(), rescale)))
         }
         (Pixels::Extremum, Skip::All) => {
-            let sign = sign(scene.settings.mode, parts.level.desc);
+            let sign = scene.settings.mode.sign(rescale);
             Some(CellQuestion::Rank(rank_from_stored(parts.level.stored_range, sign)))
         }
         _ => None,
@@ -67,7 +61,7 @@ pub fn frame_uniform(
     let [_, volume_high] = grid.owned_box(grid.counts - 1);
     let Phong { ambient, diffuse, specular, shininess } = scene.settings.shading.unwrap_or_default();
     let normals = level.desc.level(scene.plan.level).desc.normal_from_gradient().as_mat3();
-    let sign = sign(scene.settings.mode, level.desc);
+    let sign = scene.settings.mode.sign(rescale);
     let flag = |is_set: bool, flag: u32| if is_set { flag } else { 0 };
     let flags = flag(parts.waiting == Waiting::Never, Frame::PASSES_MISSING)
         | flag(scene.settings.skip == Skip::All, Frame::SKIPS_UNCHANGED);

@@ -101,7 +101,7 @@ impl Raycast {
         };
         let march = marched(tile, planned);
         let question = cell_question(parts);
-        residents.cells.answer(device, question.clone(), residents.set.slots())?;
+        residents.cells.answer(device, &question, residents.set.slots())?;
         let uniform = frame_uniform(parts, residents.cells.layout(), tile, &march);
         device.queue.write_buffer(&parts.shared.frame, 0, bytemuck::bytes_of(&uniform));
         let mut is_first = true;
@@ -117,7 +117,6 @@ impl Raycast {
                 let offset = (dirty.start * size_of::<[u32; 2]>()) as u64;
                 device.queue.write_buffer(self.page_table.get(), offset, bytemuck::cast_slice(&pages));
             }
-            residents.cells.answer(device, question.clone(), residents.set.slots())?;
             self.march(parts, residents, &march, &fates_read, is_first);
             is_first = false;
             let fates: Vec<u32> = fates_read.read(device, bricks, <[u32]>::to_vec)?;
@@ -150,6 +149,7 @@ impl Raycast {
                 break;
             }
             let round = residents.load_round(device, &asked, usize::MAX, scene.allow_damaged)?;
+            residents.cells.answer(device, &question, residents.set.slots())?;
             table.follow(&round.loads);
             // Prefetched bricks may have come besides.
             for &brick in &asked {
@@ -229,28 +229,6 @@ impl Raycast {
 
 /// The pixels of a tile, counted from its first, that can meet any of the planned bricks.
 fn marched(tile: &PixelRect, planned: &[PlannedBrick]) -> PixelRect {
-    let of_tile = |axis: usize, at: u32| at.clamp(tile.min[axis], tile.max[axis]) - tile.min[axis];
-    let nothing = PixelRect { min: [0; 2], max: [0; 2] };
-    let both = |a: PixelRect, b: PixelRect| PixelRect {
-        min: [0, 1].map(|axis| a.min[axis].min(b.min[axis])),
-        max: [0, 1].map(|axis| a.max[axis].max(b.max[axis])),
-    };
-    planned.iter().map(|brick| brick.footprint).reduce(both).map_or(nothing, |rect| PixelRect {
-        min: [0, 1].map(|axis| of_tile(axis, rect.min[axis])),
-        max: [0, 1].map(|axis| of_tile(axis, rect.max[axis])),
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_pixels_that_can_meet_a_brick_are_marched() {
-        let tile = PixelRect { min: [100, 50], max: [200, 150] };
-        let brick = |min, max| PlannedBrick { index: 0, footprint: PixelRect { min, max } };
-        let bricks = [brick([90, 70], [120, 80]), brick([150, 60], [160, 65])];
-        assert_eq!(marched(&tile, &bricks), PixelRect { min: [0, 10], max: [60, 30] });
-        assert_eq!(marched(&tile, &[]), PixelRect { min: [0; 2], max: [0; 2] });
-    }
+    let met = planned.iter().map(|brick| brick.footprint).reduce(PixelRect::union);
+    met.map_or(PixelRect { min: [0; 2], max: [0; 2] }, |rect| rect.in_tile(tile))
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use glassbrick_volume::{BrickId, BrickRange, BrickSource, Frame, Mode};
 
 use crate::atlas_bindings::AtlasBindings;
-use crate::frame_uniform::{FrameParts, Level, sign};
+use crate::frame_uniform::{FrameParts, Level};
 use crate::pixels::{Finish, pixels};
 use crate::raycast::{Raycast, RaycastTile};
 use crate::residents::Residents;
@@ -68,11 +68,6 @@ impl GpuRenderer {
         })
     }
 
-    /// The device that draws.
-    pub fn device(&self) -> &GpuDevice {
-        &self.device
-    }
-
     /// Draws until the picture is complete, in as many rounds as its bricks take.
     ///
     /// # Errors
@@ -118,7 +113,7 @@ impl GpuRenderer {
             rays: scene.rays,
             transfer_function: scene.transfer_function,
             rescale: level.desc.rescale,
-            sign: sign(scene.settings.mode, level.desc),
+            sign: scene.settings.mode.sign(level.desc.rescale),
         };
         let pass = pass_of(scene, &self.device);
         let mut tally = Tally {

@@ -87,15 +87,15 @@ impl SlotCells {
     pub fn answer(
         &mut self,
         device: &GpuDevice,
-        question: Option<CellQuestion>,
+        question: &Option<CellQuestion>,
         slots: u32,
     ) -> Result<(), GpuError> {
         let bytes = question.as_ref().map_or(0, |question| self.slot_bytes(question));
         let needed = if self.is_kept() { slots as usize * bytes } else { 0 };
-        if self.question != question || self.answers.len() != needed {
+        if self.question != *question || self.answers.len() != needed {
             self.stale = (0..self.ranges.len() as u32).collect();
             self.answers = vec![0; needed];
-            self.question = question;
+            self.question.clone_from(question);
         }
         self.buffer.grow(device, needed as u64)?;
         let Some(question) = &self.question else { return Ok(()) };

@@ -18,10 +18,7 @@ pub fn tiles([width, height]: [u32; 2]) -> Vec<PixelRect> {
 
 /// The planned bricks that a tile can meet, layer by layer.
 pub fn layers_of(plan: &FramePlan, tile: &PixelRect) -> Vec<Vec<PlannedBrick>> {
-    let meets = |brick: &&PlannedBrick| {
-        let rect = &brick.footprint;
-        (0..2).all(|axis| rect.min[axis] < tile.max[axis] && tile.min[axis] < rect.max[axis])
-    };
+    let meets = |brick: &&PlannedBrick| brick.footprint.overlaps(tile);
     let layers = plan.layers.iter().map(|layer| layer.bricks.iter().filter(meets).copied().collect());
     layers.filter(|layer: &Vec<_>| !layer.is_empty()).collect()
 }

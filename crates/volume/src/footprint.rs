@@ -14,6 +14,28 @@ pub struct PixelRect {
     pub max: [u32; 2],
 }
 
+impl PixelRect {
+    /// Whether two rectangles have a pixel in common.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        (0..2).all(|axis| self.min[axis] < other.max[axis] && other.min[axis] < self.max[axis])
+    }
+
+    /// The smallest rectangle that holds both.
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            min: [0, 1].map(|axis| self.min[axis].min(other.min[axis])),
+            max: [0, 1].map(|axis| self.max[axis].max(other.max[axis])),
+        }
+    }
+
+    /// What lies in a tile of the picture, counted from the tile's first pixel.
+    pub fn in_tile(&self, tile: &Self) -> Self {
+        let counted =
+            |at: [u32; 2]| [0, 1].map(|axis| at[axis].clamp(tile.min[axis], tile.max[axis]) - tile.min[axis]);
+        Self { min: counted(self.min), max: counted(self.max) }
+    }
+}
+
 /// Where boxes of voxels fall in the picture.
 #[derive(Clone, Debug)]
 pub struct Footprints {
@@ -127,6 +149,15 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn rectangles_are_counted_from_their_tile() {
+        let rect = |min, max| PixelRect { min, max };
+        let tile = rect([100, 50], [200, 150]);
+        let both = rect([90, 70], [120, 80]).union(rect([150, 60], [160, 65]));
+        assert_eq!(both.in_tile(&tile), rect([0, 10], [60, 30]));
+        assert!(both.overlaps(&tile) && !both.overlaps(&rect([160, 0], [170, 500])));
     }
 
     #[test]

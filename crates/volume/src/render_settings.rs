@@ -1,3 +1,5 @@
+use crate::Rescale;
+
 /// What a ray makes of the values that it meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
@@ -23,6 +25,14 @@ impl Mode {
             Self::Minip => "minip",
             Self::Mean => "mean",
         }
+    }
+}
+
+impl Mode {
+    /// 1 where a projection looks for the largest stored value, −1 for the smallest: a negative slope turns the largest
+    /// value into the smallest stored one.
+    pub fn sign(self, rescale: Rescale) -> f32 {
+        if (self != Self::Minip) == (rescale.slope > 0.0) { 1.0 } else { -1.0 }
     }
 }
 

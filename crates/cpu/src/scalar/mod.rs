@@ -10,7 +10,7 @@ use glam::Vec3;
 use glassbrick_volume::{BrickSource, FrameRays, Mode, PixelRect, Ray, ReadError, Skip, Voxels};
 
 use crate::executor::{CpuFrame, CpuScene, draw_with};
-use crate::kernel::{BrickView, Kernel, overlap};
+use crate::kernel::{BrickView, Kernel};
 pub use interval::samples_in_box;
 pub use look_up::LookUp;
 use projector::{Dvr, Extremum, Headlight, Mean, Projector};
@@ -32,8 +32,7 @@ pub fn draw(source: &dyn BrickSource, scene: &CpuScene) -> Result<CpuFrame, Read
             draw_with(&Scalar { projector, skip, sample_count }, source, scene)
         }
         mode @ (Mode::Mip | Mode::Minip) => {
-            // A negative slope turns the largest value into the smallest stored value.
-            let sign = if (mode == Mode::Mip) == (desc.rescale.slope > 0.0) { 1.0 } else { -1.0 };
+            let sign = mode.sign(desc.rescale);
             let projector = Extremum { look_up, sign };
             draw_with(&Scalar { projector, skip, sample_count }, source, scene)
         }
@@ -88,7 +87,7 @@ impl<P: Projector> Kernel for Scalar<P> {
     }
 
     fn add_brick(&self, tile: &mut Self::Tile, brick: &BrickView) -> u64 {
-        if !overlap(&tile.rect, &brick.footprint) {
+        if !tile.rect.overlaps(&brick.footprint) {
             return 0;
         }
         match &brick.brick.voxels {

@@ -84,7 +84,7 @@ pub fn draw(
         }
         mode @ (Mode::Mip | Mode::Minip) => {
             // A negative slope turns the largest value into the smallest stored value.
-            let sign = if (mode == Mode::Mip) == (rescale.slope > 0.0) { 1.0 } else { -1.0 };
+            let sign = mode.sign(rescale);
             let look_up = LookUp::new(baked, rescale);
             let leaps = settings.skip == Skip::All;
             common.with(LaneExtremum { look_up, sign, leaps }).draw(source, scene)

@@ -1,7 +1,6 @@
 use glassbrick_volume::{FrameRays, PixelRect};
 
 use super::lanes::Lanes;
-use crate::kernel::overlap;
 
 /// Rays of a packet: 4×4 pixels.
 pub const PACKET: usize = 16;
@@ -82,7 +81,7 @@ impl<S> Packet<S> {
     }
 
     pub fn meets(&self, rect: &PixelRect) -> bool {
-        overlap(&self.rect, rect)
+        self.rect.overlaps(rect)
     }
 }
 

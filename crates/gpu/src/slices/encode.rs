@@ -1,7 +1,6 @@
 use glassbrick_shaders::{DrawArgs, Pixels, QueryRange, SlicedBrick};
-use wgpu::{BufferUsages, LoadOp, Operations, StoreOp};
-
 use glassbrick_volume::PixelRect;
+use wgpu::{BufferUsages, LoadOp, Operations, StoreOp};
 
 use super::SlicesPass;
 use super::round::{Group, SLICE_INDICES, SliceRound};
@@ -35,10 +34,6 @@ pub struct Style {
 impl Style {
     fn is_ranked(self) -> bool {
         self.pixels == Pixels::Extremum
-    }
-
-    fn is_layered(self) -> bool {
-        matches!(self.pixels, Pixels::Dvr | Pixels::DvrShaded)
     }
 }
 
@@ -79,17 +74,11 @@ pub struct RoundEncoder<'a> {
 }
 
 impl RoundEncoder<'_> {
-    /// Only pixels that a group can meet, of those of the tile; x, y, width and height in it.
-    fn scissor(&self, rect: &PixelRect) -> [u32; 4] {
-        let clipped =
-            |axis: usize, at: u32| at.clamp(self.tile.min[axis], self.tile.max[axis]) - self.tile.min[axis];
-        let [x, y] = [clipped(0, rect.min[0]), clipped(1, rect.min[1])];
-        [x, y, clipped(0, rect.max[0]) - x, clipped(1, rect.max[1]) - y]
+    /// Draws only pixels of the tile that lie in a rectangle of the picture.
+    fn set_scissor(&self, pass: &mut wgpu::RenderPass, rect: &PixelRect) {
+        let PixelRect { min, max } = rect.in_tile(&self.tile);
+        pass.set_scissor_rect(min[0], min[1], max[0] - min[0], max[1] - min[1]);
     }
-}
-
-fn set_scissor(pass: &mut wgpu::RenderPass, [x, y, width, height]: [u32; 4]) {
-    pass.set_scissor_rect(x, y, width, height);
 }
 
 impl SlicesPass {
@@ -184,10 +173,10 @@ impl SlicesPass {
             pass.set_pipeline(&self.pipelines.opaque);
             pass.set_bind_group(1, &bound.accumulated, &[]);
             pass.set_stencil_reference(1);
-            set_scissor(&mut pass, order.scissor(changed));
+            order.set_scissor(&mut pass, changed);
             pass.draw(0..3, 0..1);
             pass.set_stencil_reference(0);
-            set_scissor(&mut pass, order.scissor(&order.tile));
+            order.set_scissor(&mut pass, &order.tile);
         }
         if style.asks {
             pass.set_pipeline(&bound.boxes);
@@ -222,12 +211,12 @@ impl SlicesPass {
         group: &Group,
     ) {
         let style = order.style;
-        let (target, load) = if style.is_layered() {
+        let (target, load) = if style.pixels.is_dvr() {
             (&self.targets().layer, LoadOp::Clear(wgpu::Color::TRANSPARENT))
         } else {
             (&self.targets().accumulated, LoadOp::Load)
         };
-        let has_depth = style.is_layered() || style.is_ranked();
+        let has_depth = style.pixels.is_dvr() || style.is_ranked();
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("slices"),
             color_attachments: &[Some(color(target, load))],
@@ -252,7 +241,7 @@ impl SlicesPass {
             }
         }
         drop(pass);
-        if style.is_layered() {
+        if style.pixels.is_dvr() {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("under"),
                 color_attachments: &[Some(color(&self.targets().accumulated, LoadOp::Load))],
@@ -260,7 +249,7 @@ impl SlicesPass {
             });
             pass.set_pipeline(&self.pipelines.under);
             pass.set_bind_group(0, &bound.layer, &[]);
-            set_scissor(&mut pass, order.scissor(&group.rect));
+            order.set_scissor(&mut pass, &group.rect);
             pass.draw(0..3, 0..1);
         }
     }

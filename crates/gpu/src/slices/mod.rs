@@ -22,7 +22,7 @@ use glassbrick_residency::SlotId;
 use glassbrick_shaders::{Pixels, SlicedBrick};
 use glassbrick_volume::{BrickId, PixelRect, PlannedBrick, Skip};
 
-use crate::frame_uniform::{FrameParts, cell_question, frame_uniform, rank_from_stored, sign};
+use crate::frame_uniform::{FrameParts, cell_question, frame_uniform, rank_from_stored};
 use crate::read_back::ReadBack;
 use crate::residents::Residents;
 use crate::slot_cells::{CellLayout, CellQuestion};
@@ -208,20 +208,19 @@ impl SlicesPass {
 /// How the rounds of a frame are drawn.
 fn style(parts: &FrameParts) -> Style {
     let settings = &parts.scene.settings;
-    let is_layered = matches!(parts.pixels, Pixels::Dvr | Pixels::DvrShaded);
-    let cuts_off = is_layered && settings.effective_cutoff().is_finite();
+    let cuts_off = parts.pixels.is_dvr() && settings.effective_cutoff().is_finite();
     let can_hide = cuts_off || parts.pixels == Pixels::Extremum;
     Style { pixels: parts.pixels, cuts_off, asks: can_hide && settings.skip == Skip::All }
 }
 
 fn accumulated_format(device: &GpuDevice, style: Style) -> wgpu::TextureFormat {
-    let is_layered = matches!(style.pixels, Pixels::Dvr | Pixels::DvrShaded);
-    if is_layered { device.tier.blend_format() } else { READ_FORMAT }
+    if style.pixels.is_dvr() { device.tier.blend_format() } else { READ_FORMAT }
 }
 
 /// The bricks in the order in which they are drawn: layer by layer, or the best values first.
 fn waiting_bricks(parts: &FrameParts, layers: &[Vec<PlannedBrick>], style: Style) -> Vec<Waited> {
-    let ranks = rank_from_stored(parts.level.stored_range, sign(parts.scene.settings.mode, parts.level.desc));
+    let ranks =
+        rank_from_stored(parts.level.stored_range, parts.scene.settings.mode.sign(parts.level.desc.rescale));
     let best = |planned: &PlannedBrick| {
         let [low, high] = parts.ranges[planned.index as usize].reach;
         (ranks[0] * low + ranks[1]).max(ranks[0] * high + ranks[1])
@@ -235,7 +234,7 @@ fn waiting_bricks(parts: &FrameParts, layers: &[Vec<PlannedBrick>], style: Style
     if style.pixels == Pixels::Extremum {
         bricks.sort_by(|a, b| b.best.total_cmp(&a.best));
     }
-    if !matches!(style.pixels, Pixels::Dvr | Pixels::DvrShaded) {
+    if !style.pixels.is_dvr() {
         for (number, brick) in bricks.iter_mut().enumerate() {
             brick.group = number / RANKED_GROUP;
         }

@@ -61,7 +61,8 @@ impl SliceRound {
         self.bricks.extend(bricks);
         let count = self.bricks.len() - first;
         if count > 0 {
-            let rect = self.bricks[first..].iter().map(|brick| brick.planned.footprint).reduce(union);
+            let rect =
+                self.bricks[first..].iter().map(|brick| brick.planned.footprint).reduce(PixelRect::union);
             let rect = rect.expect("there is a brick");
             self.groups.push(Group { first, count, first_query: self.queries, rect });
             self.queries = (self.queries + count).next_multiple_of(QUERY_ALIGNMENT);
@@ -92,14 +93,6 @@ impl SliceRound {
             draws[query] = draw(brick.slices);
         }
         draws
-    }
-}
-
-/// The smallest rectangle that holds two.
-fn union(a: PixelRect, b: PixelRect) -> PixelRect {
-    PixelRect {
-        min: [a.min[0].min(b.min[0]), a.min[1].min(b.min[1])],
-        max: [a.max[0].max(b.max[0]), a.max[1].max(b.max[1])],
     }
 }
 
