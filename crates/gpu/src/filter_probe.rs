@@ -7,6 +7,8 @@ use glassbrick_residency::TexelFormat;
 use glassbrick_shaders::{Pass, wgsl};
 use wgpu::util::DeviceExt;
 
+use crate::bindings::{bind, layout_of, linear, read_only, storage, volume_texture};
+
 /// Texels along an axis of the texture that is tried.
 const EDGE: u32 = 4;
 /// Places that are tried.
@@ -115,16 +117,16 @@ fn read(
         compilation_options: wgpu::PipelineCompilationOptions::default(),
         cache: None,
     });
-    let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("filter probe"),
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &[
-            entry(0, wgpu::BindingResource::TextureView(&texture.create_view(&Default::default()))),
-            entry(1, wgpu::BindingResource::Sampler(&device.create_sampler(&linear_sampler()))),
-            entry(2, places.as_entire_binding()),
-            entry(3, values.as_entire_binding()),
+    let bindings = bind(
+        device,
+        &pipeline.get_bind_group_layout(0),
+        &[
+            (0, wgpu::BindingResource::TextureView(&texture.create_view(&Default::default()))),
+            (1, wgpu::BindingResource::Sampler(&device.create_sampler(&linear_sampler()))),
+            (2, places.as_entire_binding()),
+            (3, values.as_entire_binding()),
         ],
-    });
+    );
     let mut encoder = device.create_command_encoder(&Default::default());
     let mut pass = encoder.begin_compute_pass(&Default::default());
     pass.set_pipeline(&pipeline);
@@ -149,12 +151,7 @@ pub fn linear_sampler() -> wgpu::SamplerDescriptor<'static> {
     }
 }
 
-fn entry(binding: u32, resource: wgpu::BindingResource) -> wgpu::BindGroupEntry {
-    wgpu::BindGroupEntry { binding, resource }
-}
-
 fn layout(device: &wgpu::Device) -> wgpu::PipelineLayout {
-    use crate::bindings::{layout_of, linear, read_only, storage, volume_texture};
     let group = layout_of(
         device,
         "filter probe",

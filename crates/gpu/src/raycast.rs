@@ -1,8 +1,6 @@
 //! The raycast pass: one march per pixel through the page table. A ray that needs a brick which is not resident asks for
 //! it and waits; rounds of loading and marching follow one another until no ray asks.
 
-use std::collections::BTreeMap;
-
 use glassbrick_residency::{NOT_PLANNED, PageTable, SlotId};
 use glassbrick_shaders::{Pass, RayState};
 use glassbrick_volume::{BrickId, PixelRect, PlannedBrick};
@@ -13,6 +11,7 @@ use crate::frame_uniform::{FrameParts, cell_question, frame_uniform};
 use crate::grown_buffer::GrownBuffer;
 use crate::read_back::ReadBack;
 use crate::residents::Residents;
+use crate::tiles::Taken;
 use crate::waiting::Waiting;
 use crate::{GpuDevice, GpuError};
 
@@ -30,18 +29,6 @@ pub struct Raycast {
     reaches: GrownBuffer,
     states: GrownBuffer,
     fates: GrownBuffer,
-}
-
-/// What the rays of a tile gathered.
-pub struct RaycastTile {
-    /// Row by row.
-    pub states: Vec<RayState>,
-    /// By place in the grid: whether a brick was rendered.
-    pub rendered: Vec<u32>,
-    pub damaged: BTreeMap<u32, String>,
-    /// Bricks that rays needed, did not have and did not wait for.
-    pub missing: Vec<BrickId>,
-    pub rounds: usize,
 }
 
 impl Raycast {
@@ -75,14 +62,14 @@ impl Raycast {
         }
     }
 
-    /// Marches the rays of a tile. `planned` are the bricks that it can meet, front to back.
+    /// Marches the rays of a tile, and returns what they gathered, row by row. `planned` are the bricks that it can meet, front to back.
     pub fn draw_tile(
         &mut self,
         parts: &FrameParts,
         residents: &mut Residents,
         tile: &PixelRect,
         planned: &[PlannedBrick],
-    ) -> Result<RaycastTile, GpuError> {
+    ) -> Result<(Vec<RayState>, Taken), GpuError> {
         let FrameParts { device, scene, level, waiting, .. } = *parts;
         let number = scene.plan.level;
         let id = |index: u32| BrickId::new(number, level.grid.brick(index as usize));
@@ -92,13 +79,7 @@ impl Raycast {
         let (bricks, rays) = (level.grid.len(), (size[0] * size[1]) as usize);
         self.make_buffers(parts, bricks, rays)?;
         let fates_read = ReadBack::new(&device.device, bricks as u64 * 4);
-        let mut drawn = RaycastTile {
-            states: Vec::new(),
-            rendered: vec![0; bricks],
-            damaged: BTreeMap::new(),
-            missing: Vec::new(),
-            rounds: 0,
-        };
+        let mut taken = Taken::default();
         let march = marched(tile, planned);
         let question = cell_question(parts);
         residents.cells.answer(device, &question, residents.set.slots())?;
@@ -106,7 +87,6 @@ impl Raycast {
         device.queue.write_buffer(&parts.shared.frame, 0, bytemuck::bytes_of(&uniform));
         let mut is_first = true;
         loop {
-            drawn.rounds += 1;
             if let Some(dirty) = table.take_dirty() {
                 let shape = &residents.textures.shape;
                 let page = |&entry: &u32| {
@@ -118,11 +98,7 @@ impl Raycast {
                 device.queue.write_buffer(self.page_table.get(), offset, bytemuck::cast_slice(&pages));
             }
             self.march(parts, residents, &march, &fates_read, is_first);
-            is_first = false;
             let fates: Vec<u32> = fates_read.read(device, bricks, <[u32]>::to_vec)?;
-            for (rendered, fate) in drawn.rendered.iter_mut().zip(&fates) {
-                *rendered |= u32::from(fate & RENDERED != 0);
-            }
             let with = |fate: u32| {
                 let fates = &fates;
                 planned
@@ -132,12 +108,14 @@ impl Raycast {
             };
             // What was just used goes last. What was there before the first round is a hit, the rest was a miss.
             for index in with(RENDERED) {
-                if drawn.rounds == 1 {
+                taken.rendered.insert(index);
+                if is_first {
                     residents.set.hold(id(index));
                 } else {
                     residents.set.hold_again(id(index));
                 }
             }
+            is_first = false;
             let asked: Vec<BrickId> = with(ASKED_FOR).map(id).collect();
             if asked.is_empty() {
                 residents.set.end_round();
@@ -145,7 +123,7 @@ impl Raycast {
             }
             if waiting == Waiting::Never {
                 residents.set.end_round();
-                drawn.missing = asked;
+                taken.missing.extend(asked);
                 break;
             }
             let round = residents.load_round(device, &asked, usize::MAX, scene.allow_damaged)?;
@@ -159,11 +137,10 @@ impl Raycast {
             }
             for (brick, why) in round.damaged {
                 table.leave_out(brick);
-                drawn.damaged.insert(level.grid.index(brick.place()) as u32, why);
+                taken.damaged.insert(level.grid.index(brick.place()) as u32, why);
             }
         }
-        drawn.states = self.read_states(device, rays)?;
-        Ok(drawn)
+        Ok((self.read_states(device, rays)?, taken))
     }
 
     fn make_buffers(&mut self, parts: &FrameParts, bricks: usize, rays: usize) -> Result<(), GpuError> {

@@ -1,4 +1,4 @@
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glassbrick_volume::{BrickId, BrickRange, BrickSource, Frame, Mode};
@@ -6,11 +6,11 @@ use glassbrick_volume::{BrickId, BrickRange, BrickSource, Frame, Mode};
 use crate::atlas_bindings::AtlasBindings;
 use crate::frame_uniform::{FrameParts, Level};
 use crate::pixels::{Finish, pixels};
-use crate::raycast::{Raycast, RaycastTile};
+use crate::raycast::Raycast;
 use crate::residents::Residents;
 use crate::shared_buffers::SharedBuffers;
-use crate::slices::{SlicesPass, SlicesTile};
-use crate::tiles::{layers_of, tiles};
+use crate::slices::SlicesPass;
+use crate::tiles::{Taken, layers_of, tiles};
 use crate::waiting::Waiting;
 use crate::{GpuDevice, GpuError, GpuFrame, GpuPass, GpuScene};
 
@@ -30,16 +30,6 @@ pub struct GpuRenderer {
 
 /// Bricks that are uploaded for one frame that waits for none.
 const MOST_UPLOADS: usize = 16;
-
-/// What the tiles of a frame add up to.
-struct Tally {
-    /// By place in the grid: whether a brick was rendered.
-    rendered: Vec<u32>,
-    damaged: BTreeMap<u32, String>,
-    samples: Option<u64>,
-    missing: Vec<BrickId>,
-    rounds: usize,
-}
 
 impl GpuRenderer {
     /// Keeps bricks in at most `budget_bytes` of the device's memory, and reads them by so many threads.
@@ -116,13 +106,8 @@ impl GpuRenderer {
             sign: scene.settings.mode.sign(level.desc.rescale),
         };
         let pass = pass_of(scene, &self.device);
-        let mut tally = Tally {
-            rendered: vec![0; grid.len()],
-            damaged: BTreeMap::new(),
-            samples: (pass == GpuPass::Raycast).then_some(0),
-            missing: Vec::new(),
-            rounds: 0,
-        };
+        let mut taken = Taken::default();
+        let mut samples = 0;
         let parts = FrameParts {
             device: &self.device,
             shared: &self.shared,
@@ -140,46 +125,45 @@ impl GpuRenderer {
                 for layer in &mut layers {
                     layer.retain(|brick| {
                         let why = self.unreadable.get(&id(brick.index));
-                        tally.damaged.extend(why.map(|why| (brick.index, why.clone())));
+                        taken.damaged.extend(why.map(|why| (brick.index, why.clone())));
                         why.is_none()
                     });
                 }
             }
             match pass {
                 GpuPass::Raycast => {
-                    let drawn =
-                        self.raycast.draw_tile(&parts, &mut self.residents, &tile, &layers.concat())?;
-                    finish.rays(&mut frame, &tile, &drawn.states);
-                    tally.add_rays(drawn);
+                    let planned = layers.concat();
+                    let (states, more) =
+                        self.raycast.draw_tile(&parts, &mut self.residents, &tile, &planned)?;
+                    finish.rays(&mut frame, &tile, &states);
+                    samples += states.iter().map(|state| u64::from(state.samples)).sum::<u64>();
+                    taken.add(more);
                 }
                 GpuPass::Slices => {
                     let slices = self.slices.get_or_insert_with(|| SlicesPass::new(&self.device));
-                    let drawn = slices.draw_tile(&parts, &mut self.residents, &tile, &layers)?;
-                    finish.slices(&mut frame, &tile, &drawn.gathered);
-                    tally.add_slices(drawn);
+                    let (gathered, more) = slices.draw_tile(&parts, &mut self.residents, &tile, &layers)?;
+                    finish.slices(&mut frame, &tile, &gathered);
+                    taken.add(more);
                 }
             }
         }
         self.device.check_since(troubles)?;
-        // A brick may be missing from several tiles, and be drawn in none.
-        let missing: BTreeSet<BrickId> = tally.missing.iter().copied().collect();
         if waiting == Waiting::Never {
-            self.residents.ask(&tally.missing);
+            self.residents.ask(&taken.missing);
         }
         let (slots, uploads) = self.residents.take_counts();
-        let rendered = tally.rendered.iter().filter(|&&rendered| rendered != 0).count();
+        let Taken { rendered, damaged, missing } = taken;
         Ok(GpuFrame {
             frame,
             pass,
-            samples: tally.samples,
-            occluded: scene.plan.bricks() - rendered - tally.damaged.len() - missing.len(),
-            rendered,
-            complete: tally.missing.is_empty() && tally.damaged.is_empty(),
-            damaged: tally.damaged,
+            samples: (pass == GpuPass::Raycast).then_some(samples),
+            occluded: scene.plan.bricks() - rendered.len() - damaged.len() - missing.len(),
+            rendered: rendered.len(),
+            complete: missing.is_empty() && damaged.is_empty(),
+            damaged,
             slots,
             uploads,
             peak_bytes: self.residents.peak_bytes(),
-            rounds: tally.rounds,
         })
     }
 
@@ -198,28 +182,6 @@ impl GpuRenderer {
         let pinned = self.residents.set.set_pinned(bricks);
         self.residents.ask(&[]);
         Ok(pinned)
-    }
-}
-
-impl Tally {
-    fn add_rays(&mut self, drawn: RaycastTile) {
-        for (rendered, more) in self.rendered.iter_mut().zip(&drawn.rendered) {
-            *rendered |= more;
-        }
-        let samples: u64 = drawn.states.iter().map(|state| u64::from(state.samples)).sum();
-        self.samples = self.samples.map(|before| before + samples);
-        self.damaged.extend(drawn.damaged);
-        self.missing.extend(drawn.missing);
-        self.rounds += drawn.rounds;
-    }
-
-    fn add_slices(&mut self, drawn: SlicesTile) {
-        for index in drawn.rendered {
-            self.rendered[index as usize] = 1;
-        }
-        self.damaged.extend(drawn.damaged);
-        self.missing.extend(drawn.missing);
-        self.rounds += drawn.rounds;
     }
 }
 

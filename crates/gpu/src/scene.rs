@@ -55,6 +55,4 @@ pub struct GpuFrame {
     pub uploads: UploadCounts,
     /// Bytes of atlas textures at once, at most.
     pub peak_bytes: u64,
-    /// Rounds that the frame took.
-    pub rounds: usize,
 }

@@ -1,9 +1,32 @@
-use glassbrick_volume::{FramePlan, PixelRect, PlannedBrick};
+use std::collections::{BTreeMap, BTreeSet};
+
+use glassbrick_volume::{BrickId, FramePlan, PixelRect, PlannedBrick};
 
 /// Pixels of a tile, at most: what it keeps of each fits into every device's buffers.
 const MOST_PIXELS: u32 = 1 << 21;
 /// Pixels along a side of a tile, at most: what every device can draw into.
 const MOST_SIDE: u32 = 2048;
+
+/// What the drawing of a tile, or of all tiles of a frame, took.
+#[derive(Default)]
+pub struct Taken {
+    /// Places in the grid of bricks that were rendered.
+    pub rendered: BTreeSet<u32>,
+    /// Why bricks were left out that could not be read, by place in the grid.
+    pub damaged: BTreeMap<u32, String>,
+    /// Bricks that were needed, not resident and not waited for, each once, the nearest first.
+    pub missing: Vec<BrickId>,
+}
+
+impl Taken {
+    /// Adds what another tile took.
+    pub fn add(&mut self, other: Self) {
+        self.rendered.extend(other.rendered);
+        self.damaged.extend(other.damaged);
+        let known: BTreeSet<BrickId> = self.missing.iter().copied().collect();
+        self.missing.extend(other.missing.into_iter().filter(|brick| !known.contains(brick)));
+    }
+}
 
 /// The parts that a picture is drawn in, each for itself.
 pub fn tiles([width, height]: [u32; 2]) -> Vec<PixelRect> {

@@ -15,8 +15,6 @@ mod pipelines;
 mod round;
 mod targets;
 
-use std::collections::BTreeMap;
-
 use bytemuck::Zeroable;
 use glassbrick_residency::SlotId;
 use glassbrick_shaders::{Pixels, SlicedBrick};
@@ -26,6 +24,7 @@ use crate::frame_uniform::{FrameParts, cell_question, frame_uniform, rank_from_s
 use crate::read_back::ReadBack;
 use crate::residents::Residents;
 use crate::slot_cells::{CellLayout, CellQuestion};
+use crate::tiles::Taken;
 use crate::waiting::Waiting;
 use crate::{GpuDevice, GpuError};
 use encode::{RoundBuffers, RoundEncoder, Style};
@@ -43,18 +42,6 @@ pub struct SlicesPass {
     pipelines: SlicePipelines,
     buffers: RoundBuffers,
     targets: Option<SliceTargets>,
-}
-
-/// What slices of a tile added up to.
-pub struct SlicesTile {
-    /// Row by row.
-    pub gathered: Vec<[f32; 4]>,
-    /// Places in the grid of bricks that were drawn.
-    pub rendered: Vec<u32>,
-    pub damaged: BTreeMap<u32, String>,
-    /// Bricks that can be seen, are not resident and were not waited for.
-    pub missing: Vec<BrickId>,
-    pub rounds: usize,
 }
 
 /// A brick that waits to be drawn.
@@ -79,14 +66,14 @@ impl SlicesPass {
         self.targets.as_ref().expect("a tile's targets are made before it is drawn")
     }
 
-    /// Draws the slices of a tile. `layers` are the bricks that it can meet, front to back.
+    /// Draws the slices of a tile, and returns what they added up to, row by row. `layers` are the bricks that it can meet, front to back.
     pub fn draw_tile(
         &mut self,
         parts: &FrameParts,
         residents: &mut Residents,
         tile: &PixelRect,
         layers: &[Vec<PlannedBrick>],
-    ) -> Result<SlicesTile, GpuError> {
+    ) -> Result<(Vec<[f32; 4]>, Taken), GpuError> {
         let style = style(parts);
         let size = [tile.max[0] - tile.min[0], tile.max[1] - tile.min[1]];
         self.make_targets(parts.device, size, style)?;
@@ -107,22 +94,15 @@ impl SlicesPass {
             (waiting, missing) = (here, away);
         }
         let question = cell_question(parts);
-        let mut drawn = SlicesTile {
-            gathered: Vec::new(),
-            rendered: Vec::new(),
-            damaged: BTreeMap::new(),
-            missing: Vec::new(),
-            rounds: 0,
-        };
+        let mut result = Taken::default();
         loop {
-            drawn.rounds += 1;
             let groups = waiting.chunk_by(|a, b| a.group == b.group);
             let most = most_bricks(groups.map(<[Waited]>::len), if question.is_some() { PARTS } else { 1 });
             let wanted: Vec<BrickId> = waiting.iter().take(most).map(|brick| id(&brick.planned)).collect();
             let most_loads = residents.textures.shape.slots_per_cube() as usize;
             let loaded = residents.load_round(parts.device, &wanted, most_loads, scene.allow_damaged)?;
             for (brick, why) in loaded.damaged {
-                drawn.damaged.insert(parts.level.grid.index(brick.place()) as u32, why);
+                result.damaged.insert(parts.level.grid.index(brick.place()) as u32, why);
             }
             let taken: Vec<Waited> = waiting.drain(..loaded.taken).collect();
             let mut round = SliceRound::default();
@@ -147,7 +127,7 @@ impl SlicesPass {
             let is_visible = |number: usize| visible.as_ref().is_none_or(|visible| visible[number]);
             for (number, brick) in round.bricks[..drawn_bricks].iter().enumerate() {
                 if is_visible(number) {
-                    drawn.rendered.push(brick.planned.index);
+                    result.rendered.insert(brick.planned.index);
                 }
                 residents.set.set_drawn(id(&brick.planned));
             }
@@ -159,9 +139,8 @@ impl SlicesPass {
             }
         }
         residents.set.end_round();
-        drawn.missing = missing.iter().map(|brick| id(&brick.planned)).collect();
-        drawn.gathered = self.read(parts.device, style)?;
-        Ok(drawn)
+        result.missing = missing.iter().map(|brick| id(&brick.planned)).collect();
+        Ok((self.read(parts.device, style)?, result))
     }
 
     fn make_targets(&mut self, device: &GpuDevice, size: [u32; 2], style: Style) -> Result<(), GpuError> {
