@@ -3,18 +3,20 @@
 //! Samples are measured by drawing one resident brick on one thread: `mean` is trilinear sampling, `dvr` adds the look-up of
 //! extinction and colour, `phong` the gradient. Throughput is in samples, voxels or bricks.
 
+mod volumes;
+
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{UVec2, UVec3};
-use glassbrick_benches::{OneBrick, camera, opaque_above, ranges, source};
 use glassbrick_brick_store::Codec;
 use glassbrick_cpu::InstructionSet;
 use glassbrick_volume::{
     Bins, BrickLayout, BrickSource, FramePlan, FrameRays, Mode, NearlyEmpty, Phong, RenderSettings, Rescale,
     Skip, StoredType, VCT_BINS, VolumeDesc, VoxelCountTable, filtered_visible, without_nearly_empty,
 };
+use volumes::{OneBrick, camera, opaque_above, ranges, source};
 
 /// Bricks of the lists: a volume of about 22 billion voxels.
 const MANY_BRICKS: usize = 100_000;
@@ -54,7 +56,7 @@ fn samples(criterion: &mut Criterion) {
 
 fn tables(criterion: &mut Criterion) {
     let extent = UVec3::splat(180);
-    let voxels = glassbrick_benches::voxels(extent);
+    let voxels = volumes::voxels(extent);
     let mut group = criterion.benchmark_group("scan");
     group.throughput(Throughput::Elements(u64::from(extent.element_product())));
     group.bench_function("ranges, voxels copied", |bencher| {
@@ -98,7 +100,7 @@ fn id() -> glassbrick_volume::BrickId {
 
 /// What a brick of a store costs to write and to read, beside the disk.
 fn codecs(criterion: &mut Criterion) {
-    let brick = glassbrick_benches::voxels(UVec3::splat(BrickLayout::default().edge));
+    let brick = volumes::voxels(UVec3::splat(BrickLayout::default().edge));
     let mut group = criterion.benchmark_group("codec");
     group.throughput(Throughput::Bytes(brick.len() as u64));
     for codec in Codec::ALL {
