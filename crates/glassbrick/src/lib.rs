@@ -34,11 +34,12 @@ mod renderer;
 mod report_json;
 mod settings_file;
 mod store;
+mod transfer_function_choice;
 mod transfer_function_file;
 mod visible_levels;
 mod volume;
 
-pub use auto_transfer_function::auto_transfer_function;
+pub use auto_transfer_function::{auto_transfer_function, has_hounsfield_units};
 pub use backend::{Backend, Gpu};
 pub use camera_file::read_camera;
 pub use encode::{
@@ -57,10 +58,14 @@ pub use glassbrick_volume::{
 };
 pub use histogram::Histogram;
 pub use presets::{PRESETS, Preset, preset};
-pub use process_memory::{MemoryPeaks, peaks as memory_peaks};
+pub use process_memory::{
+    MemoryPeaks, available_bytes as available_memory_bytes, peaks as memory_peaks,
+    total_bytes as total_memory_bytes,
+};
 pub use render_request::{DEFAULT_GPU_MEMORY_BYTES, LevelChoice, RenderRequest};
 pub use renderer::{Rendered, Renderer};
 pub use report_json::report_json;
 pub use store::{IngestSettings, ingest, stored_bytes, verify};
+pub use transfer_function_choice::TransferFunctionChoice;
 pub use transfer_function_file::read_transfer_function;
 pub use volume::{OpenSettings, Volume};

@@ -1,5 +1,6 @@
 use crate::args::InfoArgs;
-use crate::job::{InputJob, TransferFunctionChoice};
+use crate::job::{InputJob, transfer_function_choice};
+use glassbrick::TransferFunctionChoice;
 
 /// What is to be told of which volume.
 pub struct InfoJob {
@@ -15,7 +16,7 @@ impl InfoJob {
         Ok(Self {
             input: InputJob::new(&args.input, None),
             json: args.json,
-            transfer_function: args.tf.as_deref().map(TransferFunctionChoice::new).transpose()?,
+            transfer_function: args.tf.as_deref().map(transfer_function_choice).transpose()?,
         })
     }
 }

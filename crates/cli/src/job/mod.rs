@@ -17,5 +17,5 @@ pub use ingest::IngestJob;
 pub use input::InputJob;
 pub use output::Output;
 pub use render::RenderJob;
-pub use transfer_function::TransferFunctionChoice;
+pub use transfer_function::transfer_function_choice;
 pub use viewpoint::{View, turned};

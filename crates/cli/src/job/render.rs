@@ -3,12 +3,12 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use glassbrick::{
     Backend, Background, DEFAULT_GPU_MEMORY_BYTES, GpuPass, LevelChoice, NearlyEmpty, RenderRequest,
-    RenderSettings, TransferFunction, check_text_file,
+    RenderSettings, TransferFunction, TransferFunctionChoice, check_text_file,
 };
 
 use super::output::check_nothing_read_is_overwritten;
 use super::settings::{gpu_pass, idle_flags, idle_flags_on_cpu, render_settings};
-use super::{InputJob, Output, TransferFunctionChoice, View};
+use super::{InputJob, Output, View, transfer_function_choice};
 use crate::args::{BackendChoice, RenderArgs};
 use crate::usage::UsageError;
 
@@ -45,7 +45,7 @@ impl RenderJob {
         check_report(args, &output)?;
         Ok(Self {
             input: InputJob::new(&args.input, args.memory),
-            transfer_function: TransferFunctionChoice::new(&args.tf)?,
+            transfer_function: transfer_function_choice(&args.tf)?,
             view: View::new(&args.view)?,
             size: args.size,
             step_voxels: args.step,

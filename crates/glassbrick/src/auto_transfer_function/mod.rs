@@ -36,6 +36,12 @@ pub fn auto_transfer_function(histogram: &Histogram, desc: &VolumeDesc, mode: Mo
     function
 }
 
+/// Whether a volume seems to be a CT in Hounsfield units, so that the CT presets show what they say.
+pub fn has_hounsfield_units(histogram: &Histogram) -> bool {
+    let content = Distribution::of(histogram).map(|distribution| Content::of(&distribution));
+    content == Some(Content::Hounsfield { offset: 0.0 })
+}
+
 /// What a volume seems to hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Content {
