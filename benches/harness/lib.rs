@@ -1,6 +1,39 @@
 //! Measures glassbrick end to end: what `glassbrick bench` runs and writes.
+//!
+//! A benchmark is a [`BenchPlan`]: data sets × transfer functions × views × executors, as data. A [`Runner`] does its tasks
+//! one by one, each in a process of its own, which calls [`work`], so that the peak of memory is one executor's and a
+//! driver that dies takes one task with it. What they find is a [`BenchResults`], which [`write_results`] writes as JSON,
+//! CSV, plots and a page, and [`compare`] holds against another.
+//!
+//! This crate draws through `glassbrick` as its users do; only [`plain_caster`] forms a picture itself.
 
+mod difference;
+mod error;
+mod executor;
+mod frame_file;
+mod machine;
+mod measure;
+mod places;
+pub mod plain_caster;
+mod plan;
+mod record;
 mod results;
+mod runner;
+mod sweep;
+mod view;
+mod worker;
+
+pub use difference::difference;
+pub use error::BenchError;
+pub use executor::Executor;
+pub use machine::provenance;
+pub use plan::{
+    BenchPlan, DataSet, NamedTransferFunction, Origin, PAPER_EXTENTS, QUICK_EXTENTS, Task, TaskKind,
+    in_file_names, with_distinct_names,
+};
+pub use runner::Runner;
+pub use view::{View, views};
+pub use worker::work;
 
 pub use results::{
     BenchResults, BenchSettings, BrickFractions, BrickStages, BudgetPoint, DataSetRecord, Difference,

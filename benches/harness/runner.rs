@@ -1,0 +1,204 @@
+use std::fs::{self, File};
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use glassbrick_phantom::Phantom;
+
+use crate::places::Places;
+use crate::plan::Origin;
+use crate::record::Record;
+use crate::{
+    BenchError, BenchPlan, BenchResults, BenchSettings, DataSet, DataSetRecord, Executor, ExecutorRecord,
+    Provenance, SCHEMA, Task,
+};
+
+/// Runs a plan, each task in a process of its own.
+pub struct Runner<'a> {
+    pub plan: &'a BenchPlan,
+    /// A folder that is there, for files that are not kept; its pictures are moved to where results are written.
+    pub scratch: &'a Path,
+    /// Why no GPU executor can run here, if so.
+    pub no_gpu: Option<String>,
+    /// The command that does a task by [`work`](crate::work).
+    pub worker: &'a dyn Fn(usize) -> Command,
+    /// Hears what is done, and which share of all is, where that can be told.
+    pub progress: &'a dyn Fn(&str, Option<f32>),
+}
+
+impl Runner<'_> {
+    /// Measures everything. What an executor cannot do is said in its record, and the others go on.
+    ///
+    /// # Errors
+    /// When a data set cannot be opened, or a file cannot be written.
+    pub fn run(&self, provenance: Provenance) -> Result<BenchResults, BenchError> {
+        let places = Places::new(self.scratch)?;
+        let mut results = BenchResults {
+            schema: SCHEMA,
+            provenance,
+            settings: self.settings(),
+            data_sets: Vec::new(),
+            executors: Executor::ALL.map(|executor| self.executor_record(executor)).to_vec(),
+            runs: Vec::new(),
+            budgets: Vec::new(),
+            nearly_empty: Vec::new(),
+        };
+        let tasks: Vec<(usize, Task)> = self.plan.tasks().into_iter().enumerate().collect();
+        let whole: usize = tasks.iter().map(|&(_, task)| self.plan.results_of(task)).sum();
+        let mut done = 0;
+        for (index, data_set) in self.plan.data_sets.iter().enumerate() {
+            if let Origin::Generated(phantom) = &data_set.origin {
+                self.generate(phantom, data_set)?;
+            }
+            let record = self.describe(data_set)?;
+            results.settings.threads = record.1;
+            let names = record.0.transfer_functions.clone();
+            results.data_sets.push(record.0);
+            for &(number, task) in tasks.iter().filter(|(_, task)| task.data_set == index) {
+                let can_run = self.no_gpu.is_none() || !task.executor.needs_gpu();
+                if can_run {
+                    let what = format!(
+                        "{} {} {}",
+                        data_set.name,
+                        names[task.transfer_function],
+                        task.executor.name()
+                    );
+                    let told = &|of_task: usize| {
+                        (self.progress)(&what, Some((done + of_task) as f32 / whole.max(1) as f32));
+                    };
+                    if let Err(why) = self.do_task(number, &places, &mut results, told) {
+                        let executor = &mut results.executors[task.executor as usize];
+                        executor.reasons.push(format!("{what}: {why}"));
+                    }
+                }
+                done += self.plan.results_of(task);
+            }
+            self.clear(data_set)?;
+        }
+        in_the_order_of_executors(&mut results);
+        for record in &mut results.executors {
+            record.ran = results.runs.iter().any(|run| run.executor == record.name);
+        }
+        Ok(results)
+    }
+
+    fn settings(&self) -> BenchSettings {
+        let plan = self.plan;
+        BenchSettings {
+            size: plan.size,
+            step: plan.step_voxels,
+            opacity_cutoff: plan.settings.opacity_cutoff,
+            mode: plan.settings.mode.name().to_owned(),
+            shading: if plan.settings.shading.is_some() { "phong" } else { "off" }.to_owned(),
+            repeat: plan.repeat,
+            threads: 0,
+            gpu_memory_bytes: plan.gpu_memory_bytes,
+        }
+    }
+
+    fn executor_record(&self, executor: Executor) -> ExecutorRecord {
+        let reason = if !self.plan.executors.contains(&executor) {
+            Some(NOT_ASKED_FOR.to_owned())
+        } else {
+            self.no_gpu.clone().filter(|_| executor.needs_gpu())
+        };
+        ExecutorRecord {
+            name: executor.name().to_owned(),
+            summary: executor.summary().to_owned(),
+            ran: false,
+            reasons: reason.into_iter().collect(),
+        }
+    }
+
+    fn generate(&self, phantom: &Phantom, data_set: &DataSet) -> Result<(), BenchError> {
+        let path = data_set.path(self.scratch);
+        let what = format!("making {}", data_set.name);
+        let made = phantom.write_nrrd(&path, |_| (self.progress)(&what, None));
+        made.map_err(|source| BenchError::File { path, source })
+    }
+
+    /// What a data set is, and how many threads work on it.
+    fn describe(&self, data_set: &DataSet) -> Result<(DataSetRecord, usize), BenchError> {
+        (self.progress)(&format!("opening {}", data_set.name), None);
+        let volume = data_set.open(self.scratch, None)?;
+        let desc = volume.desc();
+        let functions = self.plan.transfer_functions(&volume)?;
+        let source = match &data_set.origin {
+            Origin::Generated(phantom) => format!("generated body, seed {}", phantom.seed),
+            Origin::File(path) => format!("{} ({})", path.display(), volume.format()),
+        };
+        let record = DataSetRecord {
+            name: data_set.name.clone(),
+            source,
+            extent: desc.extent.to_array(),
+            spacing_mm: desc.spacing_mm.to_array(),
+            dtype: desc.stored_type.name().to_owned(),
+            bytes: desc.bytes(),
+            bricks: volume.bricks().grid(0).len(),
+            transfer_functions: functions.into_iter().map(|function| function.name).collect(),
+        };
+        Ok((record, volume.threads()))
+    }
+
+    /// Does a task in a process of its own, and takes in what that tells.
+    fn do_task(
+        &self,
+        number: usize,
+        places: &Places,
+        results: &mut BenchResults,
+        told: &dyn Fn(usize),
+    ) -> Result<(), String> {
+        told(0);
+        let complaints_path = places.complaints(number);
+        let complaints = File::create(&complaints_path).map_err(|error| error.to_string())?;
+        let mut command = (self.worker)(number);
+        let process = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(complaints).spawn();
+        let mut process = process.map_err(|error| format!("its process cannot be started: {error}"))?;
+        let stdout = process.stdout.take().ok_or("its process has no stdout")?;
+        for (of_task, line) in BufReader::new(stdout).lines().map_while(Result::ok).enumerate() {
+            match serde_json::from_str(&line) {
+                Ok(Record::Run(run)) => results.runs.push(*run),
+                Ok(Record::Budget(point)) => results.budgets.push(*point),
+                Ok(Record::NearlyEmpty(point)) => results.nearly_empty.push(*point),
+                // Drivers may print what they like.
+                Err(_) => continue,
+            }
+            told(of_task + 1);
+        }
+        let status = process.wait().map_err(|error| error.to_string())?;
+        if status.success() {
+            return Ok(());
+        }
+        let complaints = fs::read_to_string(&complaints_path).unwrap_or_default();
+        let last = complaints.lines().rfind(|line| !line.trim().is_empty());
+        Err(match last {
+            Some(last) => last.trim_start_matches("error: ").to_owned(),
+            None => format!("its process ended with {status}"),
+        })
+    }
+
+    /// Removes what a data set left behind that no other needs.
+    fn clear(&self, data_set: &DataSet) -> Result<(), BenchError> {
+        let generated = matches!(data_set.origin, Origin::Generated(_)).then(|| data_set.path(self.scratch));
+        let entries = fs::read_dir(self.scratch).into_iter().flatten().flatten().map(|entry| entry.path());
+        let of_sw = entries.filter(|path| path.extension().is_some_and(|extension| extension == "rgba"));
+        for path in generated.into_iter().chain(of_sw) {
+            fs::remove_file(&path).map_err(|source| BenchError::File { path, source })?;
+        }
+        Ok(())
+    }
+}
+
+/// Runs are done with SW first, and told with the executors in their own order.
+fn in_the_order_of_executors(results: &mut BenchResults) {
+    let place = |run: &crate::Run| {
+        let data_set = results.data_sets.iter().position(|record| record.name == run.data_set);
+        let functions = data_set.map(|place| &results.data_sets[place].transfer_functions);
+        let function = functions.and_then(|names| names.iter().position(|name| *name == run.tf));
+        (data_set, function, Executor::ALL.iter().position(|executor| executor.name() == run.executor))
+    };
+    results.runs.sort_by_cached_key(place);
+}
+
+/// The reason of executors that were left out on purpose.
+pub const NOT_ASKED_FOR: &str = "not asked for";
