@@ -3,12 +3,14 @@
 //! This is the truth that executors are compared with, so it favours being evidently right over being fast, and
 //! shares no code with them.
 
+mod bricks;
 mod camera;
 mod field;
 mod transfer_function;
 
 use glam::{DMat3, DVec3};
 
+pub use bricks::{BricksMet, bricks_kept, bricks_met, bricks_not_empty};
 pub use camera::{Camera, Projection, Ray};
 use field::Field;
 pub use transfer_function::{BakedTransferFunction, ControlPoint, Entry};

@@ -54,7 +54,7 @@ impl Memory {
 
 /// Bytes of an atlas texture of a volume, which are as many as the refusal of too little memory says: how voxels are
 /// kept depends on what the GPU can filter.
-fn texture_bytes(gpu: &Gpu, volume: &Volume) -> u64 {
+pub fn texture_bytes(gpu: &Gpu, volume: &Volume) -> u64 {
     let request = on(gpu, GpuPass::Raycast, request(&scenes()[0]));
     let refused = Renderer::new(volume, RenderRequest { gpu_memory_bytes: 1, ..request });
     needed_bytes(&refused.err().expect("one byte holds no texture").to_string())
@@ -68,7 +68,7 @@ fn needed_bytes(refusal: &str) -> u64 {
 }
 
 /// A request, to be drawn on the GPU.
-fn on(gpu: &Gpu, pass: GpuPass, request: RenderRequest) -> RenderRequest {
+pub fn on(gpu: &Gpu, pass: GpuPass, request: RenderRequest) -> RenderRequest {
     RenderRequest { backend: Backend::Gpu(gpu.clone()), pass, ..request }
 }
 

@@ -6,6 +6,7 @@ mod binary;
 mod command_line;
 mod comparing;
 mod fair_scenes;
+mod fractions;
 mod gpu;
 mod properties;
 mod real_data;

@@ -88,7 +88,7 @@ impl Field<'_> {
     }
 
     /// A voxel as it is read: rounded to `f32`, which keeps all but u32, i32 and f64 as they are; 0 if not finite.
-    fn stored(&self, index: usize) -> f64 {
+    pub fn stored(&self, index: usize) -> f64 {
         let rounded = self.voxels[index] as f32;
         if rounded.is_finite() { f64::from(rounded) } else { 0.0 }
     }

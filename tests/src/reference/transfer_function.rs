@@ -66,6 +66,34 @@ impl BakedTransferFunction {
             color: a.color.lerp(b.color, t),
         }
     }
+
+    /// Whether any value of the closed interval has an extinction above zero. Between entries extinction is linear, so it
+    /// is above zero somewhere if it is at an end, or at an entry within.
+    pub fn shows_any(&self, low: f64, high: f64) -> bool {
+        let is_within = |&index: &usize| (low..=high).contains(&self.entry_value(index));
+        let within = (0..ENTRIES).filter(is_within).map(|index| self.entries[index]);
+        within.chain([self.at(low), self.at(high)]).any(|entry| entry.extinction > 0.0)
+    }
+
+    /// The open intervals of values on which extinction is above zero, as long as they can be.
+    pub fn bands(&self) -> Vec<[f64; 2]> {
+        // Between two entries without extinction that have none between them, all is shown or nothing.
+        let zeros = (0..ENTRIES).filter(|&index| self.entries[index].extinction == 0.0);
+        let mut ends: Vec<f64> = zeros.map(|index| self.entry_value(index)).collect();
+        ends.insert(0, f64::NEG_INFINITY);
+        ends.push(f64::INFINITY);
+        let between = |low: f64, high: f64| match (low.is_finite(), high.is_finite()) {
+            (true, true) => (low + high) / 2.0,
+            (true, false) => self.last.max(low) + 1.0,
+            _ => self.first.min(high) - 1.0,
+        };
+        let pairs = ends.windows(2).map(|pair| [pair[0], pair[1]]);
+        pairs.filter(|&[low, high]| self.at(between(low, high)).extinction > 0.0).collect()
+    }
+
+    fn entry_value(&self, index: usize) -> f64 {
+        self.first + index as f64 / (ENTRIES - 1) as f64 * (self.last - self.first)
+    }
 }
 
 /// Colour (still sRGB-encoded) and opacity between the points. Of points at one value, the last holds there.
