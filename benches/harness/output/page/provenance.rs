@@ -51,7 +51,10 @@ fn data_sets(results: &BenchResults) -> Markup {
             table {
                 thead {
                     tr {
-                        @for name in ["data set", "source", "extent, voxels", "spacing, mm", "type", "MB", "bricks"] {
+                        @for name in ["data set", "source"] {
+                            th .text scope="col" { (name) }
+                        }
+                        @for name in ["extent, voxels", "spacing, mm", "type", "MB", "bricks"] {
                             th scope="col" { (name) }
                         }
                     }

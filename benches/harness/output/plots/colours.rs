@@ -71,11 +71,11 @@ impl Shade {
     }
 }
 
-/// How an executor's lines are drawn: where lines lie on each other, the wider gaps show those below.
-pub fn stroke(executor: &str) -> (LineStyle, f64) {
+/// How an executor's lines are drawn beside those of others: where they lie on each other, gaps show those below.
+pub fn stroke(executor: &str, beside_others: bool) -> (LineStyle, f64) {
     match executor {
-        "raycast" => (LineStyle::Custom("9 6".into()), 2.5),
-        "cpu" => (LineStyle::Custom("2 7".into()), 4.0),
+        "raycast" if beside_others => (LineStyle::Custom("5 4".into()), 3.0),
+        "cpu" if beside_others => (LineStyle::Custom("2 5".into()), 4.0),
         _ => (LineStyle::Solid, 1.5),
     }
 }

@@ -5,7 +5,7 @@ use kuva::render::render::{Primitive, TextAnchor};
 
 use super::Plot;
 use super::bars::{Category, bars, marks};
-use super::sheet::{Words, label, plot as both, sheet};
+use super::sheet::{Words, label, plot as both, sheet, tick};
 use crate::BenchResults;
 use crate::output::groups::{Group, groups};
 
@@ -45,7 +45,7 @@ pub fn plot(results: &BenchResults) -> Option<Plot> {
         })
         .collect();
     let labels: Vec<String> = categories.iter().map(|category| category.label.clone()).collect();
-    let width = (260.0 + 26.0 * (categories.len() * executors.len()) as f64).clamp(760.0, 2400.0);
+    let width = (260.0 + 18.0 * (categories.len() * executors.len()) as f64).clamp(680.0, 2000.0);
     let spans = spans(&rows);
     let words = Words {
         name: "fps".to_owned(),
@@ -59,6 +59,7 @@ pub fn plot(results: &BenchResults) -> Option<Plot> {
             executors.iter().map(|&(index, name)| (label(name, 24), shade.executor(name, index))).collect();
         let mut layout = sheet(words, [width, HEIGHT], &labels, "frames per second", shade).with_log_y();
         layout.y_range = decades(&all);
+        layout.y_tick_format = kuva::TickFormat::Custom(std::sync::Arc::new(tick));
         let (plot, layout) = bars(&categories, &series, " fps", layout);
         let layout = with_room_below(layout);
         let over = data_set_names(&spans, &ComputedLayout::from_layout(&layout));

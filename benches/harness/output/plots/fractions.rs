@@ -6,7 +6,7 @@ use super::sheet::{Words, label, plot as both, sheet};
 use crate::output::groups::{Group, groups};
 use crate::{BenchResults, DataSetRecord};
 
-const SIZE: [f64; 2] = [860.0, 400.0];
+const SIZE: [f64; 2] = [680.0, 380.0];
 const EXECUTORS: [&str; 3] = ["slices", "raycast", "cpu"];
 
 pub fn plot(results: &BenchResults, data_set: &DataSetRecord) -> Option<Plot> {

@@ -6,7 +6,7 @@ use kuva::render::layout::Layout;
 use kuva::render::plots::Plot as Marks;
 
 use super::colours::{Shade, stroke};
-use super::sheet::label;
+use super::sheet::{label, tick};
 use crate::output::figures::significant;
 use crate::output::table::printable;
 
@@ -31,11 +31,12 @@ pub fn lines(lines: &[Line], layout: Layout, shade: Shade) -> (Vec<Marks>, Layou
     layout.y_range = (0.0, top);
     layout.y_tick_format = kuva::TickFormat::Custom(std::sync::Arc::new(tick));
     let mut marks = Vec::new();
+    let several = lines.iter().any(|line| line.executor != lines[0].executor);
     for line in lines {
         let points: Vec<(f64, f64)> =
             line.points.iter().map(|&(category, value)| (category as f64 + 1.0, value)).collect();
         let colour = shade.transfer_function(line.tf_place);
-        let (style, width) = stroke(&line.executor);
+        let (style, width) = stroke(&line.executor, several);
         let drawn = LinePlot::new().with_data(points.clone()).with_color(colour).with_stroke_width(width);
         marks.push(Marks::Line(drawn.with_line_style(style)));
         let named = printable(&format!("{}, {}", line.tf, line.executor));
@@ -43,15 +44,10 @@ pub fn lines(lines: &[Line], layout: Layout, shade: Shade) -> (Vec<Marks>, Layou
         let markers = ScatterPlot::new().with_data(points).with_color(colour).with_size(MARKER_RADIUS);
         marks.push(Marks::Scatter(markers.with_tooltips().with_tooltip_labels(hints)));
     }
-    (marks, with_legend(layout, lines, shade))
+    (marks, with_legend(layout, lines, shade, several))
 }
 
-fn tick(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-fn with_legend(layout: Layout, lines: &[Line], shade: Shade) -> Layout {
+fn with_legend(layout: Layout, lines: &[Line], shade: Shade, several: bool) -> Layout {
     let mut tfs: Vec<LegendEntry> = Vec::new();
     let mut executors: Vec<LegendEntry> = Vec::new();
     for line in lines {
@@ -62,7 +58,7 @@ fn with_legend(layout: Layout, lines: &[Line], shade: Shade) -> Layout {
         }
         let executor = label(&line.executor, 24);
         if executors.iter().all(|entry| entry.label != executor) {
-            let dasharray = stroke(&line.executor).0.dasharray();
+            let dasharray = stroke(&line.executor, several).0.dasharray();
             let color = shade.muted().to_owned();
             executors.push(LegendEntry { label: executor, color, shape: LegendShape::Line, dasharray });
         }
@@ -71,5 +67,5 @@ fn with_legend(layout: Layout, lines: &[Line], shade: Shade) -> Layout {
         .with_legend_group("Transfer function", tfs)
         .with_legend_group("Executor", executors)
         .with_legend_box(false)
-        .with_legend_width(150.0)
+        .with_legend_width(140.0)
 }

@@ -45,8 +45,8 @@ pub fn sheet(words: &Words, size: [f64; 2], categories: &[String], y_label: &str
         .with_title(words.title.clone())
         .with_title_size(16)
         .with_label_size(12)
-        .with_tick_size(11)
-        .with_body_size(11)
+        .with_tick_size(12)
+        .with_body_size(12)
         .with_y_label(y_label)
         .with_x_categories(categories.to_vec())
         .with_font_family(FONT)
@@ -74,6 +74,12 @@ pub fn plot(
     Plot { name: words.name, title: words.title.replace("\\$", "$"), caption: words.caption, light, dark }
 }
 
+/// Without zeros at the end.
+pub fn tick(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 /// Where the figures come from, in small letters under the plot.
 fn add_footer(scene: &mut Scene, provenance: &Provenance, shade: Shade) {
     let lines = [
@@ -86,6 +92,7 @@ fn add_footer(scene: &mut Scene, provenance: &Provenance, shade: Shade) {
         format!("{} · {}", provenance.machine_in_words(), provenance.adapter_in_words()),
         provenance.command.clone(),
     ];
+    scene.height += 6.0;
     let most = ((scene.width - 2.0 * MARGIN) / FOOTER_CHARACTER) as usize;
     for line in lines {
         scene.height += f64::from(FOOTER_SIZE) * 1.45;

@@ -10,7 +10,7 @@ use super::sheet::{Words, label, plot as both, sheet};
 use crate::output::groups::groups;
 use crate::{BenchResults, BrickFractions, DataSetRecord};
 
-const SIZE: [f64; 2] = [860.0, 380.0];
+const SIZE: [f64; 2] = [680.0, 360.0];
 /// Those that skip all they can, the one whose stages are shown first.
 const EXECUTORS: [&str; 3] = ["slices", "raycast", "cpu"];
 /// So many transfer functions leave room for figures over the bars.

@@ -5,7 +5,7 @@ use super::lines::{Line, lines as drawn};
 use super::sheet::{Words, plot as both, sheet};
 use crate::{BenchResults, DataSetRecord};
 
-const SIZE: [f64; 2] = [760.0, 360.0];
+const SIZE: [f64; 2] = [680.0, 350.0];
 
 /// One measurement.
 pub struct Sample<'a> {
