@@ -14,7 +14,7 @@ pub const PRESETS: [&str; 3] = ["ct-bone", "ct-skin", "haze"];
 /// The length that the presets' opacities are of, in mm.
 const UNIT_MM: f64 = 1.0;
 
-/// A chest and a head of different shapes, and a whole body.
+/// Two upper bodies of different heights, and a whole one of longer voxels.
 const EXTENTS: [[u32; 3]; 3] = [[128, 128, 107], [128, 128, 128], [128, 76, 432]];
 
 /// The phantoms, by extent.
