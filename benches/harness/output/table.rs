@@ -50,7 +50,7 @@ pub fn table(results: &BenchResults) -> String {
 
 /// A column's name, narrow: a word a line.
 fn in_lines(name: &str) -> String {
-    name.replace("% not ", "% not\n").replace([' ', '–'], "\n").replace("%\n", "% ")
+    name.replace([' ', '–'], "\n")
 }
 
 /// A group's figures, in the order of HEADER.

@@ -34,7 +34,7 @@ pub fn label(name: &str, most: usize) -> String {
 /// How far names must be turned to fit beside each other in so many pixels.
 pub fn turn(names: &[String], width: f64) -> Option<f64> {
     let longest = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
-    (longest as f64 * 7.5 + 10.0 > width / names.len().max(1) as f64).then_some(-35.0)
+    (longest as f64 * 6.2 + 5.0 > width / names.len().max(1) as f64).then_some(-35.0)
 }
 
 /// An empty sheet for categories at 1, 2, …
@@ -51,7 +51,7 @@ pub fn sheet(words: &Words, size: [f64; 2], categories: &[String], y_label: &str
         .with_x_categories(categories.to_vec())
         .with_font_family(FONT)
         .with_theme(shade.theme());
-    if let Some(angle) = turn(categories, size[0] - 240.0) {
+    if let Some(angle) = turn(categories, size[0] - 200.0) {
         layout = layout.with_x_tick_rotate(angle);
     }
     layout
@@ -89,7 +89,8 @@ fn add_footer(scene: &mut Scene, provenance: &Provenance, shade: Shade) {
             provenance.commit.get(..12).unwrap_or(&provenance.commit),
             provenance.date
         ),
-        format!("{} · {}", provenance.machine_in_words(), provenance.adapter_in_words()),
+        provenance.machine_in_words(),
+        provenance.adapter_in_words(),
         provenance.command.clone(),
     ];
     scene.height += 6.0;

@@ -16,6 +16,9 @@ const EXECUTORS: [&str; 3] = ["slices", "raycast", "cpu"];
 /// So many transfer functions leave room for figures over the bars.
 const MOST_WITH_FIGURES: usize = 3;
 
+/// Its name and its fraction.
+type Stage = (&'static str, fn(&BrickFractions) -> f64);
+
 pub fn plot(results: &BenchResults, data_set: &DataSetRecord) -> Option<Plot> {
     let groups = groups(results);
     let of = |executor: &str| -> Vec<(usize, &str, BrickFractions)> {
@@ -30,7 +33,7 @@ pub fn plot(results: &BenchResults, data_set: &DataSetRecord) -> Option<Plot> {
     };
     let (executor, tfs) =
         EXECUTORS.iter().map(|executor| (executor, of(executor))).find(|(_, tfs)| !tfs.is_empty())?;
-    let stages: [(&str, fn(&BrickFractions) -> f64); 6] = [
+    let stages: [Stage; 6] = [
         ("total", |_| 1.0),
         ("non-empty", |fractions| fractions.non_empty),
         ("after α, β", |fractions| fractions.filtered_visible),
