@@ -7,12 +7,14 @@
 //!
 //! This crate draws through `glassbrick` as its users do; only [`plain_caster`] forms a picture itself.
 
+mod compare;
 mod difference;
 mod error;
 mod executor;
 mod frame_file;
 mod machine;
 mod measure;
+mod output;
 mod places;
 pub mod plain_caster;
 mod plan;
@@ -23,10 +25,14 @@ mod sweep;
 mod view;
 mod worker;
 
+pub use compare::{
+    CompareError, Compared, ComparedGroup, ComparedTime, Comparison, NoLongerRun, TimeChange, compare, comparison_table,
+};
 pub use difference::difference;
 pub use error::BenchError;
 pub use executor::Executor;
 pub use machine::provenance;
+pub use output::{PagePicture, Plot, csv, page, plots, table};
 pub use plan::{
     BenchPlan, DataSet, NamedTransferFunction, Origin, PAPER_EXTENTS, QUICK_EXTENTS, Task, TaskKind,
     in_file_names, with_distinct_names,
