@@ -90,7 +90,7 @@ fn plot_section(plots: &[Plot]) -> Markup {
             p { "Each plot is also a file beside this page. A pointer held on a bar or a point shows its value." }
             div .plots {
                 @for plot in plots {
-                    figure .plot {
+                    figure .plot .full[plot.name == "fps"] {
                         div .light { (PreEscaped(&plot.light)) }
                         div .dark { (PreEscaped(&plot.dark)) }
                         figcaption { (plot.caption) }

@@ -93,5 +93,5 @@ fn image(picture: &PagePicture) -> Markup {
     let what =
         format!("{}, {}, from {}, by {}", picture.data_set, picture.tf, picture.view, picture.executor);
     let source = format!("data:image/png;base64,{}", STANDARD.encode(&picture.png));
-    html! { img src=(source) alt=(printable(&what)) title=(printable(&what)) loading="lazy"; }
+    html! { img src=(source) alt=(printable(&what)) title=(printable(&what)); }
 }

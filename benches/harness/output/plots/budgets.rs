@@ -79,7 +79,7 @@ fn plot(
     };
     let words = Words {
         name: format!("budget-{}-{what}-{}", memory.kind, data_set.name),
-        title: format!("{title} {}: {}", memory.named, label(&data_set.name, 40)),
+        title: format!("{title} {}: {}", memory.named, label(&data_set.name, 30)),
         caption: format!("{caption} Steps of the axis are the sizes that were tried."),
     };
     sweep(results, words, &lines, categories, [&memory.x_label, y_label])

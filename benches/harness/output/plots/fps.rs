@@ -28,7 +28,7 @@ pub fn plot(results: &BenchResults) -> Option<Plot> {
         .enumerate()
         .filter(|(_, name)| groups.iter().any(|group| group.executor == *name))
         .collect();
-    let all: Vec<f64> = groups.iter().map(|group| group.summary().fps).filter(|fps| *fps > 0.0).collect();
+    let all: Vec<f64> = groups.iter().filter_map(shown).collect();
     if all.is_empty() || executors.is_empty() {
         return None;
     }
@@ -38,14 +38,12 @@ pub fn plot(results: &BenchResults) -> Option<Plot> {
             label: label(row[0].tf, 18),
             bars: executors
                 .iter()
-                .map(|(_, name)| {
-                    row.iter().find(|group| group.executor == *name).map(|group| group.summary().fps)
-                })
+                .map(|(_, name)| row.iter().find(|group| group.executor == *name).and_then(shown))
                 .collect(),
         })
         .collect();
     let labels: Vec<String> = categories.iter().map(|category| category.label.clone()).collect();
-    let width = (260.0 + 18.0 * (categories.len() * executors.len()) as f64).clamp(680.0, 2000.0);
+    let width = (260.0 + 18.0 * (categories.len() * executors.len()) as f64).clamp(860.0, 2000.0);
     let spans = spans(&rows);
     let words = Words {
         name: "fps".to_owned(),
@@ -65,6 +63,11 @@ pub fn plot(results: &BenchResults) -> Option<Plot> {
         let over = data_set_names(&spans, &ComputedLayout::from_layout(&layout));
         (marks(plot), layout, over)
     }))
+}
+
+/// What a logarithmic axis can show.
+fn shown(group: &Group<'_>) -> Option<f64> {
+    Some(group.summary().fps).filter(|fps| fps.is_finite() && *fps > 0.0)
 }
 
 /// Groups of one data set and transfer function.
@@ -93,7 +96,8 @@ fn decades(values: &[f64]) -> (f64, f64) {
 /// Room for the names of data sets under those of transfer functions.
 fn with_room_below(layout: Layout) -> Layout {
     let placed = ComputedLayout::from_layout(&layout);
-    layout.with_force_margins_y(placed.margin_top, placed.margin_bottom + 14.0)
+    let room = if layout.x_tick_rotate.is_some() { 28.0 } else { 14.0 };
+    layout.with_force_margins_y(placed.margin_top, placed.margin_bottom + room)
 }
 
 /// Each under the middle of its transfer functions, with a line above it from the first to the last.
@@ -119,7 +123,7 @@ fn data_set_names(spans: &[Span<'_>], layout: &ComputedLayout) -> Vec<Primitive>
                 Primitive::Text {
                     x: (left + right) / 2.0,
                     y,
-                    content: label(span.data_set, ((right - left) / 7.0) as usize),
+                    content: label(span.data_set, ((right - left) / 8.0) as usize),
                     size: 12,
                     anchor: TextAnchor::Middle,
                     rotate: None,

@@ -27,7 +27,7 @@ pub fn plot(results: &BenchResults, data_set: &DataSetRecord) -> Option<Plot> {
     let categories: Vec<String> = views.iter().map(|view| label(view, 20)).collect();
     let words = Words {
         name: format!("fractions-{}", data_set.name),
-        title: format!("Bricks rendered by view: {}", label(&data_set.name, 40)),
+        title: format!("Bricks rendered by view: {}", label(&data_set.name, 30)),
         caption: "Percent of all bricks whose samples were evaluated, for each view; lines of one colour lie on each \
                   other where executors need the same bricks."
             .to_owned(),

@@ -11,6 +11,9 @@ use crate::output::figures::significant;
 use crate::output::table::printable;
 
 const MARKER_RADIUS: f64 = 2.5;
+const LEGEND_WIDTH: f64 = 145.0;
+/// What fits beside the legend's marks.
+const LEGEND_CHARACTERS: usize = 15;
 
 /// Values of one transfer function and executor.
 pub struct Line {
@@ -33,14 +36,15 @@ pub fn lines(lines: &[Line], layout: Layout, shade: Shade) -> (Vec<Marks>, Layou
     let mut marks = Vec::new();
     let several = lines.iter().any(|line| line.executor != lines[0].executor);
     for line in lines {
+        let finite = || line.points.iter().filter(|(_, value)| value.is_finite());
         let points: Vec<(f64, f64)> =
-            line.points.iter().map(|&(category, value)| (category as f64 + 1.0, value)).collect();
+            finite().map(|&(category, value)| (category as f64 + 1.0, value)).collect();
         let colour = shade.transfer_function(line.tf_place);
         let (style, width) = stroke(&line.executor, several);
         let drawn = LinePlot::new().with_data(points.clone()).with_color(colour).with_stroke_width(width);
         marks.push(Marks::Line(drawn.with_line_style(style)));
         let named = printable(&format!("{}, {}", line.tf, line.executor));
-        let hints = line.points.iter().map(|(_, value)| format!("{named}: {}", significant(*value)));
+        let hints = finite().map(|(_, value)| format!("{named}: {}", significant(*value)));
         let markers = ScatterPlot::new().with_data(points).with_color(colour).with_size(MARKER_RADIUS);
         marks.push(Marks::Scatter(markers.with_tooltips().with_tooltip_labels(hints)));
     }
@@ -50,22 +54,23 @@ pub fn lines(lines: &[Line], layout: Layout, shade: Shade) -> (Vec<Marks>, Layou
 fn with_legend(layout: Layout, lines: &[Line], shade: Shade, several: bool) -> Layout {
     let mut tfs: Vec<LegendEntry> = Vec::new();
     let mut executors: Vec<LegendEntry> = Vec::new();
-    for line in lines {
-        let tf = label(&line.tf, 24);
-        if tfs.iter().all(|entry| entry.label != tf) {
+    for (index, line) in lines.iter().enumerate() {
+        let before = &lines[..index];
+        if before.iter().all(|other| other.tf != line.tf) {
+            let label = label(&line.tf, LEGEND_CHARACTERS);
             let color = shade.transfer_function(line.tf_place).to_owned();
-            tfs.push(LegendEntry { label: tf, color, shape: LegendShape::Rect, dasharray: None });
+            tfs.push(LegendEntry { label, color, shape: LegendShape::Rect, dasharray: None });
         }
-        let executor = label(&line.executor, 24);
-        if executors.iter().all(|entry| entry.label != executor) {
+        if before.iter().all(|other| other.executor != line.executor) {
+            let label = label(&line.executor, LEGEND_CHARACTERS);
             let dasharray = stroke(&line.executor, several).0.dasharray();
             let color = shade.muted().to_owned();
-            executors.push(LegendEntry { label: executor, color, shape: LegendShape::Line, dasharray });
+            executors.push(LegendEntry { label, color, shape: LegendShape::Line, dasharray });
         }
     }
     layout
         .with_legend_group("Transfer function", tfs)
         .with_legend_group("Executor", executors)
         .with_legend_box(false)
-        .with_legend_width(140.0)
+        .with_legend_width(LEGEND_WIDTH)
 }

@@ -135,4 +135,29 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn odd_results_are_drawn_too() {
+        let mut results = results();
+        let first = results.runs[0].clone();
+        results
+            .runs
+            .retain(|run| (&run.data_set, &run.tf, &run.view) == (&first.data_set, &first.tf, &first.view));
+        for (run, odd) in results.runs.iter_mut().zip([0.0, f64::NAN, f64::INFINITY, -1.0, 1e300]) {
+            run.fps.median = odd;
+        }
+        results.data_sets.truncate(1);
+        results.data_sets[0].transfer_functions.clear();
+        for point in &mut results.budgets {
+            (point.render_ms.median, point.budget_bytes) = (f64::NAN, 0);
+        }
+        for point in &mut results.nearly_empty {
+            point.difference.largest = f64::INFINITY;
+        }
+        results.provenance.commit = "ä".repeat(40);
+        results.provenance.command = "x".repeat(5000);
+        for plot in plots(&results) {
+            assert!(!plot.light.contains("NaN") && !plot.light.contains("inf\""), "{}", plot.name);
+        }
+    }
 }

@@ -37,7 +37,7 @@ pub fn plots(results: &BenchResults, data_set: &DataSetRecord) -> Vec<Plot> {
     for axis in &AXES {
         let words = |what: &str, title: &str, caption: &str| Words {
             name: format!("{}-{what}-{}", axis.name, data_set.name),
-            title: format!("{title} by {}: {}", axis.letter, label(&data_set.name, 40)),
+            title: format!("{title} by {}: {}", axis.letter, label(&data_set.name, 30)),
             caption: format!(
                 "{caption} Steps of the axis are the values that were tried; the first drops nothing."
             ),

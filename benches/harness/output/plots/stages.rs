@@ -48,7 +48,7 @@ pub fn plot(results: &BenchResults, data_set: &DataSetRecord) -> Option<Plot> {
     let labels = stages.map(|(name, _)| name.to_owned());
     let words = Words {
         name: format!("stages-{}", data_set.name),
-        title: format!("Bricks that each stage leaves: {}", label(&data_set.name, 40)),
+        title: format!("Bricks that each stage leaves: {}", label(&data_set.name, 30)),
         caption: format!(
             "Percent of all {} bricks that are left after each stage, from all of them to those whose samples were \
              evaluated; mean over views, executor {executor}.",
@@ -57,7 +57,7 @@ pub fn plot(results: &BenchResults, data_set: &DataSetRecord) -> Option<Plot> {
     };
     Some(both(results, words, |words, shade| {
         let series: Vec<_> =
-            tfs.iter().map(|(place, tf, _)| (label(tf, 24), shade.transfer_function(*place))).collect();
+            tfs.iter().map(|(place, tf, _)| (label(tf, 16), shade.transfer_function(*place))).collect();
         let mut layout =
             sheet(words, SIZE, &labels, "% of all bricks", shade).with_y_axis_min(0.0).with_y_axis_max(105.0);
         layout.y_range = (0.0, 100.0);
