@@ -23,7 +23,7 @@ pub fn judge(old: &BenchResults, new: &BenchResults, tolerance: f64) -> Comparis
                 Some(row) => comparison.rows.push(row),
                 None => comparison.only_in_one.push(format!("{}: no view is in both", named(group))),
             },
-            None => match reason(new, group.executor) {
+            None => match reason(new, group) {
                 Some(reason) => comparison.no_longer_run.push(NoLongerRun {
                     data_set: group.data_set.to_owned(),
                     tf: group.tf.to_owned(),
@@ -48,9 +48,11 @@ fn named(group: &Group<'_>) -> String {
     format!("{}, {}, {}", group.data_set, group.tf, group.executor)
 }
 
-/// Why an executor did not draw something, if it says so.
-fn reason(results: &BenchResults, executor: &str) -> Option<String> {
-    let record = results.executors.iter().find(|record| record.name == executor)?;
+/// Why an executor did not draw a group that it should have drawn, if it says so.
+fn reason(results: &BenchResults, group: &Group<'_>) -> Option<String> {
+    let data_set = results.data_sets.iter().find(|data_set| data_set.name == group.data_set)?;
+    data_set.transfer_functions.iter().find(|tf| *tf == group.tf)?;
+    let record = results.executors.iter().find(|record| record.name == group.executor)?;
     match (record.reasons.is_empty(), record.ran) {
         (false, _) => Some(record.reasons.join(" ")),
         (true, false) => Some("no reason was given".to_owned()),

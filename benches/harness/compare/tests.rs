@@ -117,6 +117,16 @@ fn a_group_that_died_is_a_regression_though_its_executor_ran_on_others() {
 }
 
 #[test]
+fn a_data_set_that_was_left_out_is_no_regression_whatever_happened_to_others() {
+    let (old, mut new) = (results(), results());
+    new.runs.retain(|run| run.data_set != "head");
+    new.data_sets.retain(|data_set| data_set.name != "head");
+    new.executors[3].reasons = vec!["foam: one view took too long".to_owned()];
+    let comparison = compare(&old, &new, TOLERANCE).unwrap();
+    assert_eq!((comparison.only_in_one.len(), comparison.is_regression()), (15, false));
+}
+
+#[test]
 fn what_only_one_has_is_told_and_not_judged() {
     let (old, mut new) = (results(), results());
     new.runs.retain(|run| run.data_set != "head");
