@@ -7,6 +7,7 @@ use glassbrick_volume::{
 };
 use quick_cache::sync::Cache;
 use quick_cache::{DefaultHashBuilder, Lifecycle, OptionsBuilder, Weighter};
+use rayon::prelude::*;
 
 use crate::SourceError;
 use crate::decode::brick_bytes;
@@ -116,6 +117,25 @@ impl CachedSource {
     }
 }
 
+impl CachedSource {
+    fn load(&self, id: BrickId) -> Result<Arc<Brick>, ReadError> {
+        let start = Instant::now();
+        let brick = self.source.brick(id);
+        self.load_nanos.fetch_add(start.elapsed().as_nanos() as u64, Ordering::Relaxed);
+        brick
+    }
+
+    /// Takes note of a brick that was asked for.
+    fn count(&self, missed: bool) {
+        if missed {
+            self.misses.fetch_add(1, Ordering::Relaxed);
+            self.peak_kept_bytes.fetch_max(self.kept.weight(), Ordering::Relaxed);
+        } else {
+            self.hits.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+}
+
 impl BrickSource for CachedSource {
     fn desc(&self) -> &VolumeDesc {
         self.source.desc()
@@ -141,18 +161,27 @@ impl BrickSource for CachedSource {
         let mut missed = false;
         let brick = self.kept.get_or_insert_with(&id, || {
             missed = true;
-            let start = Instant::now();
-            let brick = self.source.brick(id);
-            self.load_nanos.fetch_add(start.elapsed().as_nanos() as u64, Ordering::Relaxed);
-            brick
+            self.load(id)
         })?;
-        if missed {
-            self.misses.fetch_add(1, Ordering::Relaxed);
-            self.peak_kept_bytes.fetch_max(self.kept.weight(), Ordering::Relaxed);
-        } else {
-            self.hits.fetch_add(1, Ordering::Relaxed);
-        }
+        self.count(missed);
         Ok(brick)
+    }
+
+    /// Threads share what has to be loaded; what is kept is looked up before and put in after, one by one.
+    fn bricks(&self, ids: &[BrickId]) -> Vec<Result<Arc<Brick>, ReadError>> {
+        let kept: Vec<Option<Arc<Brick>>> = ids.iter().map(|id| self.kept.get(id)).collect();
+        let missed: Vec<bool> = kept.iter().map(Option::is_none).collect();
+        let bricks: Vec<Result<Arc<Brick>, ReadError>> =
+            ids.par_iter().zip(kept).map(|(&id, kept)| kept.map_or_else(|| self.load(id), Ok)).collect();
+        for ((&id, brick), missed) in ids.iter().zip(&bricks).zip(missed) {
+            if let Ok(brick) = brick {
+                if missed {
+                    self.kept.insert(id, Arc::clone(brick));
+                }
+                self.count(missed);
+            }
+        }
+        bricks
     }
 
     fn will_need(&self, bricks: &[BrickId]) {

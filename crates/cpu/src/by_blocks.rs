@@ -2,12 +2,12 @@
 //! for another, but all bricks of the frame are held until it is finished.
 
 use std::cmp::Ordering;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
-use glassbrick_volume::{Brick, Frame, FrameRays, PixelRect, PlannedBrick, ReadError};
+use glassbrick_volume::{Frame, FrameRays, PixelRect, PlannedBrick, ReadError};
 use rayon::prelude::*;
 
-use crate::executor::{CpuFrame, Picture};
+use crate::executor::{CpuFrame, HeldBrick, Picture};
 use crate::kernel::{Kernel, NO_SAMPLE, common};
 use crate::tiles::TILE;
 
@@ -21,7 +21,7 @@ const READ_AHEAD: usize = 2;
 pub fn draw<K: Kernel>(kernel: &K, picture: Picture) -> Result<CpuFrame, ReadError> {
     let rays = picture.scene.rays;
     let bricks = ordered(kernel, &picture);
-    let held: Vec<OnceLock<Option<Arc<Brick>>>> = bricks.iter().map(|_| OnceLock::new()).collect();
+    let held: Vec<HeldBrick> = bricks.iter().map(|_| OnceLock::new()).collect();
     let prepared: Vec<OnceLock<Option<K::Prepared<'_>>>> = bricks.iter().map(|_| OnceLock::new()).collect();
     let mut frame = Frame::transparent(rays.size.x, rays.size.y);
     let blocks = blocks(&mut frame, &bricks);
@@ -35,18 +35,13 @@ pub fn draw<K: Kernel>(kernel: &K, picture: Picture) -> Result<CpuFrame, ReadErr
             if held[place].get().is_none() && picture.is_hidden(kernel, &brick, tiles.iter()) {
                 continue;
             }
-            let voxels = match held[place].get() {
-                Some(voxels) => voxels,
-                None => {
-                    let coming = block.bricks[step + 1..].iter().take(READ_AHEAD).map(|&(place, _)| place);
-                    picture.will_need(
-                        coming.filter(|&place| held[place].get().is_none()).map(|place| bricks[place]),
-                    );
-                    let voxels = picture.load(&brick)?;
-                    held[place].get_or_init(|| voxels)
-                }
-            };
-            let Some(voxels) = voxels else { continue };
+            if held[place].get().is_none() {
+                let coming = block.bricks[step + 1..].iter().take(READ_AHEAD).map(|&(place, _)| place);
+                picture.will_need(
+                    coming.filter(|&place| held[place].get().is_none()).map(|place| bricks[place]),
+                );
+            }
+            let Some(voxels) = picture.hold(&brick, &held[place])? else { continue };
             let prepared =
                 prepared[place].get_or_init(|| kernel.prepare(picture.view(bricks[place], voxels)));
             if let Some(prepared) = prepared {

@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use glassbrick_volume::{
     BakedTransferFunction, Brick, BrickGrid, BrickId, BrickRange, BrickSource, Frame, FramePlan, FrameRays,
@@ -49,6 +49,9 @@ pub fn draw_with<K: Kernel>(
     if picture.can_be_held() { by_blocks::draw(kernel, picture) } else { by_layers::draw(kernel, picture) }
 }
 
+/// A brick, once it was asked for; nothing of a damaged one that is left out.
+pub type HeldBrick = OnceLock<Result<Option<Arc<Brick>>, ReadError>>;
+
 /// A picture under way.
 pub struct Picture<'a> {
     pub scene: &'a CpuScene<'a>,
@@ -93,8 +96,36 @@ impl<'a> Picture<'a> {
     }
 
     /// The voxels of a planned brick; nothing of a damaged one that may be left out.
-    pub fn load(&self, brick: &PlannedBrick) -> Result<Option<Arc<Brick>>, ReadError> {
-        match self.source.brick(self.id(brick)) {
+    fn load(&self, brick: &PlannedBrick) -> Result<Option<Arc<Brick>>, ReadError> {
+        self.unless_damaged(brick, self.source.brick(self.id(brick)))
+    }
+
+    /// The voxels of a planned brick that is held until the picture is finished. It is loaded once, however many threads come
+    /// to it at the same time.
+    pub fn hold<'b>(
+        &self,
+        brick: &PlannedBrick,
+        held: &'b HeldBrick,
+    ) -> Result<Option<&'b Brick>, ReadError> {
+        match held.get_or_init(|| self.load(brick)) {
+            Ok(voxels) => Ok(voxels.as_deref()),
+            Err(error) => Err(ReadError::from(error.to_string())),
+        }
+    }
+
+    /// The voxels of several planned bricks, each once.
+    pub fn load_all(&self, bricks: &[&PlannedBrick]) -> Result<Vec<Option<Arc<Brick>>>, ReadError> {
+        let ids: Vec<BrickId> = bricks.iter().map(|brick| self.id(brick)).collect();
+        let loaded = self.source.bricks(&ids);
+        bricks.iter().zip(loaded).map(|(brick, voxels)| self.unless_damaged(brick, voxels)).collect()
+    }
+
+    fn unless_damaged(
+        &self,
+        brick: &PlannedBrick,
+        voxels: Result<Arc<Brick>, ReadError>,
+    ) -> Result<Option<Arc<Brick>>, ReadError> {
+        match voxels {
             Ok(voxels) => Ok(Some(voxels)),
             Err(error) if self.scene.allow_damaged => {
                 let mut damaged = self.damaged.lock().expect("nothing panics while it is held");

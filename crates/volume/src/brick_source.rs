@@ -28,6 +28,12 @@ pub trait BrickSource: Send + Sync {
     /// When it cannot be read; the message names it.
     fn brick(&self, id: BrickId) -> Result<Arc<Brick>, ReadError>;
 
+    /// Several bricks with their halos, in the order of `ids`. Threads may share the work; what is found in memory, and
+    /// stays there, depends on the order alone.
+    fn bricks(&self, ids: &[BrickId]) -> Vec<Result<Arc<Brick>, ReadError>> {
+        ids.iter().map(|&id| self.brick(id)).collect()
+    }
+
     /// Hints that bricks may soon be asked for, so that slow storage can begin to bring them; reads none.
     fn will_need(&self, bricks: &[BrickId]);
 

@@ -57,26 +57,21 @@ fn run(executor: Executor, way: Way, threads: usize, store: Option<&Path>, scene
     scenes.iter().map(draw).collect()
 }
 
-/// Counters that tell how several threads met, set to 0.
+/// Counters without those that tell how several threads met.
 ///
-/// What one thread does is always the same. Of two threads of the CPU that come to a brick at once, one reads it and the
-/// other counts a hit; a moment later, the other would have had the brick from the first without asking memory. And in
-/// memory for few bricks, which of them must go, and so is read again, depends on whose brick came last. A GPU's slots
-/// are filled in the order of its rounds whatever its loaders do; only what these find in memory for few bricks differs.
+/// The CPU asks for bricks in the plan's order, and a GPU's slots are filled in the order of its rounds, whatever threads do.
+/// Only what the loaders of a GPU's bricks find in memory for few bricks depends on which of them was faster.
 fn without_meetings(
     executor: Executor,
     way: Way,
     threads: usize,
     counts: ResidencyCounts,
 ) -> ResidencyCounts {
-    let is_tight = way.memory_bytes.is_some();
-    match (executor, threads, is_tight) {
-        (_, 1, _) | (Executor::Gpu(_), _, false) => counts,
-        (Executor::Gpu(_), _, true) => ResidencyCounts { bytes_read: 0, ..counts },
-        (Executor::Cpu, _, false) => ResidencyCounts { hits: 0, ..counts },
-        (Executor::Cpu, _, true) => {
-            ResidencyCounts { hits: 0, misses: 0, evictions: 0, bytes_read: 0, ..counts }
+    match executor {
+        Executor::Gpu(_) if threads > 1 && way.memory_bytes.is_some() => {
+            ResidencyCounts { bytes_read: 0, ..counts }
         }
+        Executor::Cpu | Executor::Gpu(_) => counts,
     }
 }
 

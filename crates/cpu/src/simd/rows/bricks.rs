@@ -1,11 +1,11 @@
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
-use glassbrick_volume::{Brick, PlannedBrick, ReadError};
+use glassbrick_volume::{PlannedBrick, ReadError};
 
 use super::super::projection::Projection;
 use super::march::Lined;
 use super::voxels::{RowBrick, RowVoxel};
-use crate::executor::Picture;
+use crate::executor::{HeldBrick, Picture};
 
 /// A brick that has been looked at.
 pub type Prepared<'a, P, V> = Lined<'a, V, <P as Projection>::RowCells<'a>>;
@@ -15,12 +15,12 @@ pub struct Bricks<'a, P: Projection, V> {
     planned: Vec<Option<&'a PlannedBrick>>,
     /// Bricks of a line along x.
     counts_x: usize,
-    held: &'a [OnceLock<Option<Arc<Brick>>>],
+    held: &'a [HeldBrick],
     prepared: Vec<OnceLock<Option<Prepared<'a, P, V>>>>,
 }
 
 impl<'a, P: Projection, V: RowVoxel> Bricks<'a, P, V> {
-    pub fn new(picture: &Picture<'a>, held: &'a [OnceLock<Option<Arc<Brick>>>]) -> Self {
+    pub fn new(picture: &Picture<'a>, held: &'a [HeldBrick]) -> Self {
         let mut planned = vec![None; held.len()];
         for brick in picture.scene.plan.layers.iter().flat_map(|layer| &layer.bricks) {
             planned[brick.index as usize] = Some(brick);
@@ -50,14 +50,7 @@ impl<'a, P: Projection, V: RowVoxel> Bricks<'a, P, V> {
         if let Some(prepared) = self.prepared[place].get() {
             return Ok(prepared.as_ref());
         }
-        let brick = match self.held[place].get() {
-            Some(brick) => brick,
-            None => {
-                let brick = picture.load(planned)?;
-                self.held[place].get_or_init(|| brick)
-            }
-        };
-        let Some(brick) = brick else { return Ok(None) };
+        let Some(brick) = picture.hold(planned, &self.held[place])? else { return Ok(None) };
         let prepared = self.prepared[place].get_or_init(|| {
             let view = picture.view(planned, brick);
             let voxels = V::of(&brick.voxels).expect("bricks hold voxels of the volume's type");

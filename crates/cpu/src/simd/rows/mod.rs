@@ -12,15 +12,15 @@ mod track;
 mod voxels;
 
 use std::ops::Range;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
-use glassbrick_volume::{Brick, BrickSource, Frame, ReadError, Skip, StoredType};
+use glassbrick_volume::{BrickSource, Frame, ReadError, Skip, StoredType};
 use rayon::prelude::*;
 
 use super::instruction_set::InstructionSet;
 use super::packet::PACKET;
 use super::projection::Projection;
-use crate::executor::{CpuFrame, CpuScene, Picture};
+use crate::executor::{CpuFrame, CpuScene, HeldBrick, Picture};
 use crate::kernel::NO_SAMPLE;
 use bricks::Bricks;
 use march::MOST_ABREAST;
@@ -70,7 +70,7 @@ fn draw_voxels<P: Projection, V: RowVoxel>(
     rays: &RowRays,
 ) -> Result<CpuFrame, ReadError> {
     let picture = Picture::new(source, scene);
-    let held: Vec<OnceLock<Option<Arc<Brick>>>> = (0..picture.grid.len()).map(|_| OnceLock::new()).collect();
+    let held: Vec<HeldBrick> = (0..picture.grid.len()).map(|_| OnceLock::new()).collect();
     let bricks = Bricks::<P, V>::new(&picture, &held);
     let columns = columns(scene);
     let mut frame = Frame::transparent(scene.rays.size.x, scene.rays.size.y);
