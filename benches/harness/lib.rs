@@ -24,9 +24,11 @@ mod runner;
 mod sweep;
 mod view;
 mod worker;
+mod write;
 
 pub use compare::{
-    CompareError, Compared, ComparedGroup, ComparedTime, Comparison, NoLongerRun, TimeChange, compare, comparison_table,
+    CompareError, Compared, ComparedGroup, ComparedTime, Comparison, NoLongerRun, TimeChange, compare,
+    comparison_table,
 };
 pub use difference::difference;
 pub use error::BenchError;
@@ -40,6 +42,7 @@ pub use plan::{
 pub use runner::Runner;
 pub use view::{View, views};
 pub use worker::work;
+pub use write::{check_folder, read_results, write_results};
 
 pub use results::{
     BenchResults, BenchSettings, BrickFractions, BrickStages, BudgetPoint, DataSetRecord, Difference,

@@ -20,11 +20,11 @@ pub const NEARLY_EMPTY: [NearlyEmpty; 11] = [
     alpha(0.05),
     alpha(0.1),
     alpha(0.2),
+    beta(0.9999),
     beta(0.999),
+    beta(0.995),
     beta(0.99),
     beta(0.95),
-    beta(0.9),
-    beta(0.8),
 ];
 
 const fn alpha(alpha: f64) -> NearlyEmpty {

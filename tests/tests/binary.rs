@@ -69,6 +69,13 @@ pub fn glassbrick(line: &str, paths: &[&Path]) -> Outcome {
     outcome(Command::new(binary()), line, paths)
 }
 
+/// The same, given minutes.
+pub fn glassbrick_at_length(variables: &[(&str, &str)], line: &str, paths: &[&Path]) -> Outcome {
+    let mut command = Command::new(binary());
+    command.envs(variables.iter().copied());
+    outcome_within(Duration::from_secs(300), command, line, paths)
+}
+
 /// The same with environment variables set.
 pub fn glassbrick_with(variables: &[(&str, &str)], line: &str, paths: &[&Path]) -> Outcome {
     let mut command = Command::new(binary());
@@ -97,6 +104,10 @@ pub fn glassbrick_in_little_memory(line: &str, paths: &[&Path]) -> Outcome {
 }
 
 fn outcome(command: Command, line: &str, paths: &[&Path]) -> Outcome {
+    outcome_within(Duration::from_secs(20), command, line, paths)
+}
+
+fn outcome_within(limit: Duration, command: Command, line: &str, paths: &[&Path]) -> Outcome {
     let mut command = assert_cmd::Command::from_std(command);
     command.args(line.split_whitespace()).args(paths).env_remove("RUST_BACKTRACE");
     // Of Mesa's drivers: without it, they say on stderr that a machine without a screen has none.
@@ -104,7 +115,7 @@ fn outcome(command: Command, line: &str, paths: &[&Path]) -> Outcome {
     let words: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
     binary();
     let start = Instant::now();
-    let output = command.timeout(Duration::from_secs(20)).output().expect("the binary can be run");
+    let output = command.timeout(limit).output().expect("the binary can be run");
     Outcome {
         took: start.elapsed(),
         line: format!("glassbrick {line} {}", words.join(" ")),

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod analytic_truth;
+mod bench;
 mod binary;
 mod command_line;
 mod comparing;

@@ -2,9 +2,11 @@
 //!
 //! A command line is understood in two stages: [`args`] holds what was typed, [`job`] what it means, as plain data that
 //! has been checked. [`info`], [`ingest`],
-//! [`verify`], [`render`] and [`demo`] then do the work by the `glassbrick` library alone.
+//! [`verify`], [`render`] and [`demo`] then do the work by the `glassbrick` library alone, [`bench`] by the harness in
+//! `benches`.
 
 mod args;
+mod bench;
 mod demo;
 mod figures;
 mod info;
@@ -24,7 +26,7 @@ use std::time::Instant;
 use clap::Parser;
 
 use args::{Cli, Command};
-use job::{InfoJob, IngestJob, RenderJob};
+use job::{BenchJob, InfoJob, IngestJob, RenderJob};
 use usage::UsageError;
 
 const EXIT_FAILURE: u8 = 1;
@@ -46,7 +48,7 @@ fn main() -> ExitCode {
             };
         }
     };
-    match run(&cli.command, start) {
+    match run(&cli.command, &words, start) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if error.is::<UsageError>() => usage_failure(&error.to_string(), &words),
         Err(error) => failure(&error),
@@ -68,12 +70,13 @@ fn quieten_drivers() {
     }
 }
 
-fn run(command: &Command, start: Instant) -> anyhow::Result<()> {
+fn run(command: &Command, words: &[OsString], start: Instant) -> anyhow::Result<()> {
     match command {
         Command::Info(args) => info::run(&InfoJob::new(args)?, start),
         Command::Ingest(args) => ingest::run(&IngestJob::new(args), start),
         Command::Verify(args) => verify::run(args),
         Command::Render(args) => render::run(&RenderJob::new(args)?, start),
+        Command::Bench(args) => bench::run(&BenchJob::new(args)?, words, start),
         Command::Demo(args) => demo::run(args, start),
     }
 }

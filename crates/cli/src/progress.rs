@@ -36,6 +36,11 @@ impl Progress {
         self.set(done, total, "{msg} {wide_bar} {pos}/{len}, {eta} left");
     }
 
+    /// What is being done now.
+    pub fn on(&self, what: &str) {
+        self.bar.set_message(what.to_owned());
+    }
+
     /// Which share is done, from 0 to 1.
     pub fn share(&self, done: f32) {
         self.set((f64::from(done) * 1000.0) as u64, 1000, "{msg} {wide_bar} {percent} %, {eta} left");

@@ -18,7 +18,7 @@ impl std::error::Error for UsageError {}
 pub fn see_help(words: &[OsString]) -> String {
     let command = words.iter().skip(1).filter_map(|word| word.to_str()).find(|word| !word.starts_with('-'));
     match command {
-        Some(command @ ("info" | "ingest" | "verify" | "render" | "demo")) => {
+        Some(command @ ("info" | "ingest" | "verify" | "render" | "bench" | "demo")) => {
             format!("see glassbrick {command} --help")
         }
         _ => "see glassbrick --help".to_owned(),

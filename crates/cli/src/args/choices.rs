@@ -28,6 +28,21 @@ pub enum BackendChoice {
     Gpu,
 }
 
+/// What a benchmark draws with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ExecutorChoice {
+    /// GPU slices without visibility tests: every brick in the frustum
+    Hw,
+    /// A plain ray caster on the CPU, without bricks
+    Sw,
+    /// GPU slices with occlusion queries
+    Slices,
+    /// GPU rays
+    Raycast,
+    /// The CPU renderer
+    Cpu,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PassChoice {
     Slices,

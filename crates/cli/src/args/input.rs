@@ -12,6 +12,13 @@ pub struct InputArgs {
     /// A brick store, a volume file (NRRD, MetaImage, NIfTI, DICOM, raw) or a folder of DICOM slices
     #[arg(value_name = "INPUT")]
     pub path: PathBuf,
+    #[command(flatten)]
+    pub opening: OpeningArgs,
+}
+
+/// How a volume is opened, whichever it is.
+#[derive(Args, Clone, Debug)]
+pub struct OpeningArgs {
     /// The time step to read where there are several, from 0
     #[arg(long, value_name = "N")]
     pub time: Option<u32>,

@@ -1,5 +1,6 @@
 //! What was typed: flags and their values one by one, in clap's terms. What they mean together is in [`job`](crate::job).
 
+mod bench;
 mod choices;
 mod demo;
 mod info;
@@ -11,14 +12,15 @@ mod view;
 
 use clap::{Parser, Subcommand};
 
+pub use bench::BenchArgs;
 pub use choices::{
-    BackendChoice, CodecChoice, DemoSize, EndianChoice, ModeChoice, PassChoice, ShadingChoice, SkipChoice,
-    ViewChoice,
+    BackendChoice, CodecChoice, DemoSize, EndianChoice, ExecutorChoice, ModeChoice, PassChoice,
+    ShadingChoice, SkipChoice, ViewChoice,
 };
 pub use demo::DemoArgs;
 pub use info::InfoArgs;
 pub use ingest::IngestArgs;
-pub use input::{InputArgs, RawArgs};
+pub use input::{InputArgs, OpeningArgs, RawArgs};
 pub use render::RenderArgs;
 pub use verify::VerifyArgs;
 pub use view::ViewArgs;
@@ -41,6 +43,8 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Draws a picture of a volume, or a turn around it
     Render(Box<RenderArgs>),
+    /// Measures every executor on volumes: frames per second, bricks at each stage, bytes, memory, as tables and plots
+    Bench(Box<BenchArgs>),
     /// Makes a body, stores and draws it and shows the report: a first look that needs no data
     Demo(DemoArgs),
 }

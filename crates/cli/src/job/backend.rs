@@ -25,8 +25,16 @@ pub fn open_backend(choice: BackendChoice) -> Result<Backend> {
     Ok(match (choice, adapter_name()) {
         (BackendChoice::Cpu, _) => Backend::Cpu,
         (BackendChoice::Auto, None) => Backend::auto(),
-        (BackendChoice::Auto | BackendChoice::Gpu, name) => Backend::Gpu(Gpu::open(name.as_deref())?),
+        (BackendChoice::Auto | BackendChoice::Gpu, _) => Backend::Gpu(open_gpu()?),
     })
+}
+
+/// Opens the GPU that is named, or else the best, a driver that computes on the CPU if there is no other.
+///
+/// # Errors
+/// When there is none.
+pub fn open_gpu() -> Result<Gpu, glassbrick::Error> {
+    Gpu::open(adapter_name().as_deref())
 }
 
 fn adapter_name() -> Option<String> {

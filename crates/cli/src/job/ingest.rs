@@ -20,7 +20,7 @@ impl IngestJob {
             output: args.output.clone(),
             settings: IngestSettings {
                 format: input.settings.format,
-                layout: BrickLayout { edge: args.input.brick, halo: args.halo },
+                layout: BrickLayout { edge: args.input.opening.brick, halo: args.halo },
                 codec: match args.codec {
                     CodecChoice::None => Codec::None,
                     CodecChoice::Lz4 => Codec::Lz4,

@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use glassbrick::{BrickLayout, Endian, OpenOptions, OpenSettings, RawLayout, Rescale, Volume};
 
-use crate::args::{EndianChoice, InputArgs, RawArgs};
+use crate::args::{EndianChoice, InputArgs, OpeningArgs, RawArgs};
 use crate::progress::Progress;
 
 /// Which volume, and how it is opened.
@@ -14,13 +14,7 @@ pub struct InputJob {
 impl InputJob {
     /// The volume that was named; `memory_bytes` for its decoded bricks.
     pub fn new(args: &InputArgs, memory_bytes: Option<u64>) -> Self {
-        let settings = OpenSettings {
-            format: OpenOptions { raw: raw_layout(&args.raw), time: args.time },
-            layout: BrickLayout { edge: args.brick, ..BrickLayout::default() },
-            memory_bytes,
-            threads: args.threads.map(|threads| threads as usize),
-        };
-        Self { path: args.path.clone(), settings }
+        Self { path: args.path.clone(), settings: open_settings(&args.opening, memory_bytes) }
     }
 
     /// Opens the volume, and shows how far that is.
@@ -30,6 +24,16 @@ impl InputJob {
     pub fn open(&self) -> Result<Volume, glassbrick::Error> {
         let progress = Progress::start("opening");
         Volume::open(&self.path, &self.settings, |done, total| progress.bytes(done, total))
+    }
+}
+
+/// How volumes are opened; `memory_bytes` for their decoded bricks.
+pub fn open_settings(args: &OpeningArgs, memory_bytes: Option<u64>) -> OpenSettings {
+    OpenSettings {
+        format: OpenOptions { raw: raw_layout(&args.raw), time: args.time },
+        layout: BrickLayout { edge: args.brick, ..BrickLayout::default() },
+        memory_bytes,
+        threads: args.threads.map(|threads| threads as usize),
     }
 }
 

@@ -2,6 +2,7 @@
 //! settings that they name read. Everything here is found out before the first voxel is.
 
 mod backend;
+mod bench;
 mod info;
 mod ingest;
 mod input;
@@ -11,7 +12,8 @@ mod settings;
 mod transfer_function;
 mod viewpoint;
 
-pub use backend::{auto_backend, open_backend};
+pub use backend::{auto_backend, open_backend, open_gpu};
+pub use bench::BenchJob;
 pub use info::InfoJob;
 pub use ingest::IngestJob;
 pub use input::InputJob;

@@ -7,22 +7,32 @@ use crate::args::{ModeChoice, PassChoice, RenderArgs, ShadingChoice, SkipChoice}
 /// How frames are drawn.
 pub fn render_settings(args: &RenderArgs) -> RenderSettings {
     RenderSettings {
-        mode: match args.mode {
-            ModeChoice::Dvr => Mode::Dvr,
-            ModeChoice::Mip => Mode::Mip,
-            ModeChoice::Minip => Mode::Minip,
-            ModeChoice::Mean => Mode::Mean,
-        },
-        shading: match args.shading {
-            ShadingChoice::Off => None,
-            ShadingChoice::Phong => Some(Phong::default()),
-        },
+        mode: mode(args.mode),
+        shading: shading(args.shading),
         opacity_cutoff: args.opacity_cutoff,
         skip: match args.skip {
             SkipChoice::None => Skip::None,
             SkipChoice::Empty => Skip::Empty,
             SkipChoice::All => Skip::All,
         },
+    }
+}
+
+/// What a ray makes of values.
+pub fn mode(choice: ModeChoice) -> Mode {
+    match choice {
+        ModeChoice::Dvr => Mode::Dvr,
+        ModeChoice::Mip => Mode::Mip,
+        ModeChoice::Minip => Mode::Minip,
+        ModeChoice::Mean => Mode::Mean,
+    }
+}
+
+/// The light.
+pub fn shading(choice: ShadingChoice) -> Option<Phong> {
+    match choice {
+        ShadingChoice::Off => None,
+        ShadingChoice::Phong => Some(Phong::default()),
     }
 }
 

@@ -6,6 +6,6 @@ mod words;
 
 pub use bytes::bytes;
 pub use numbers::{
-    extent, fraction, number, numbers, opacity_cutoff, picture_size, positive, rescale, spacing,
+    extent, fraction, number, numbers, opacity_cutoff, picture_size, positive, rescale, share, spacing,
 };
 pub use words::{background, dtype, level};

@@ -50,6 +50,17 @@ pub fn fraction(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "a number from 0 to 1 is wanted".to_owned())
 }
 
+/// Reads a share from 0 up: a number such as 0.1, or in percent.
+pub fn share(text: &str) -> Result<f64, String> {
+    let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |percent| (percent.trim_end(), 100.0));
+    number
+        .parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite() && *number >= 0.0)
+        .map(|number| number / unit)
+        .ok_or_else(|| "a share is wanted, such as 0.1 or 10%".to_owned())
+}
+
 /// Reads a number above 0, up to 1.
 pub fn opacity_cutoff(text: &str) -> Result<f64, String> {
     fraction(text)
@@ -111,6 +122,8 @@ mod tests {
     fn bounds_are_kept() {
         assert_eq!((fraction("0"), fraction("1")), (Ok(0.0), Ok(1.0)));
         assert!(fraction("1.01").is_err() && fraction("-0.1").is_err() && fraction("nan").is_err());
+        assert_eq!((share("0.1"), share("10%"), share("5 %")), (Ok(0.1), Ok(0.1), Ok(0.05)));
+        assert!(share("-1%").is_err() && share("%").is_err() && share("nan").is_err());
         assert!(opacity_cutoff("0").is_err() && opacity_cutoff("1").is_ok());
         assert!(positive("0").is_err() && positive("inf").is_err() && positive("2").is_ok());
         assert!(rescale("0,1").is_err() && rescale("-1,0").is_ok());
