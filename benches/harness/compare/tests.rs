@@ -134,7 +134,7 @@ fn what_only_one_has_is_told_and_not_judged() {
     assert_eq!((comparison.only_in_one.len(), comparison.is_regression()), (15, false));
     let comparison = compare(&new, &old, TOLERANCE).unwrap();
     assert_eq!((comparison.only_in_one.len(), comparison.is_regression()), (15, false));
-    assert!(comparison_table(&comparison).contains("not compared: head, bone, HW: only in the new results"));
+    assert!(comparison_table(&comparison).contains("not compared: head, bone, hw: only in the new results"));
 }
 
 #[test]

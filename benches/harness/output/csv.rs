@@ -159,7 +159,7 @@ mod tests {
         let mut reader = ::csv::Reader::from_reader(text.as_bytes());
         let header = reader.headers().unwrap().clone();
         let at = |name| header.iter().position(|other| other == name).unwrap();
-        let sw = results.runs.iter().position(|run| run.executor == "SW").unwrap();
+        let sw = results.runs.iter().position(|run| run.executor == "sw").unwrap();
         let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
         assert_eq!(rows[0][at("render_ms_median")], results.runs[0].render_ms.median.to_string());
         assert_eq!(rows[0][at("bricks_in_frustum")], results.runs[0].bricks.unwrap().in_frustum.to_string());

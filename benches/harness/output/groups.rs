@@ -121,7 +121,7 @@ mod tests {
         assert_eq!(groups.len(), 3 * 3 * 5);
         let named = |group: &Group<'_>| [group.data_set, group.tf, group.executor].map(str::to_owned);
         let first = &results.data_sets[0];
-        assert_eq!(named(&groups[1]), [&first.name, &first.transfer_functions[0], "SW"]);
+        assert_eq!(named(&groups[1]), [&first.name, &first.transfer_functions[0], "sw"]);
         assert_eq!(named(&groups[5])[1], first.transfer_functions[1]);
     }
 

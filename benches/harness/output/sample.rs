@@ -14,8 +14,8 @@ const SETS: [(&str, [u32; 3], f64); 3] = [
 ];
 /// Name, milliseconds of a million samples, and whether it knows bricks.
 const EXECUTORS: [(&str, f64, bool); 5] = [
-    ("HW", 60.0, true),
-    ("SW", 90.0, false),
+    ("hw", 60.0, true),
+    ("sw", 90.0, false),
     ("slices", 25.0, true),
     ("raycast", 12.0, true),
     ("cpu", 4.0, true),
@@ -45,7 +45,7 @@ pub fn results() -> BenchResults {
             for &kind in &EXECUTORS {
                 let views = 0..VIEWS.len();
                 results.runs.extend(views.map(|view| run(record, SETS[set].2, tf, kind, view)));
-                if kind.2 && kind.0 != "HW" {
+                if kind.2 && kind.0 != "hw" {
                     results.budgets.extend((0..6).map(|step| budget(record, tf, kind.0, step)));
                 }
                 if kind.0 == "cpu" {
@@ -146,7 +146,7 @@ fn run(
     view: usize,
 ) -> Run {
     let turn = (view as f64 * 0.9).sin();
-    let seen = if name == "HW" { 1.0 } else { [0.35, 0.3, 0.9][tf] * (1.0 + 0.2 * turn) };
+    let seen = if name == "hw" { 1.0 } else { [0.35, 0.3, 0.9][tf] * (1.0 + 0.2 * turn) };
     let bricks = stages(record.bricks, matter * [0.4, 0.7, 1.0][tf], 1.0, seen.min(1.0));
     let samples = bricks.rendered.max(20) as f64 * [9e3, 8e3, 6e4][tf] * if bricked { 1.0 } else { 1.6 };
     let render = spread(cost * samples / 1e6 + 1.5);
@@ -173,7 +173,7 @@ fn run(
         complete: true,
         peak_anon_bytes: Some(90_000_000 + record.bricks as u64 * 100_000),
         peak_rss_bytes: Some(190_000_000),
-        difference: (name != "SW").then_some(Difference { largest: 3.1e-4, maximum: 8e-4, mean: 2e-6 }),
+        difference: (name != "sw").then_some(Difference { largest: 3.1e-4, maximum: 8e-4, mean: 2e-6 }),
         picture: None,
     }
 }

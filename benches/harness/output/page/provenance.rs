@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::BenchResults;
-use crate::output::figures::count;
+use crate::output::figures::{count, significant};
 use crate::output::table::printable;
 
 pub fn section(results: &BenchResults) -> Markup {
@@ -65,7 +65,7 @@ fn data_sets(results: &BenchResults) -> Markup {
                             th scope="row" { (printable(&set.name)) }
                             td .text { (printable(&set.source)) }
                             td { (set.extent.map(|edge| edge.to_string()).join(" × ")) }
-                            td { (set.spacing_mm.map(|edge| edge.to_string()).join(" × ")) }
+                            td { (set.spacing_mm.map(significant).join(" × ")) }
                             td { (set.dtype) }
                             td { (format!("{:.0}", set.bytes as f64 / 1e6)) }
                             td { (count(set.bricks as u64)) }

@@ -16,11 +16,11 @@ const STAGES: [(&str, &str); 6] = [
 ];
 const EXECUTORS: [(&str, &str); 5] = [
     (
-        "HW",
+        "hw",
         "slices on the GPU, every brick in the frustum drawn and nothing skipped: the usual way to draw with graphics hardware.",
     ),
     (
-        "SW",
+        "sw",
         "a plain software ray caster over the whole volume, without bricks: what the other pictures are compared with.",
     ),
     ("slices", "view-aligned slices, brick by brick, on the GPU, with empty and occluded bricks left out."),

@@ -34,8 +34,8 @@ impl Shade {
     /// The same for an executor in all plots.
     pub fn executor(self, name: &str, index: usize) -> &'static str {
         self.of(match name {
-            "HW" => GREY,
-            "SW" => AMBER,
+            "hw" => GREY,
+            "sw" => AMBER,
             "slices" => BLUE,
             "raycast" => SKY,
             "cpu" => ORANGE,

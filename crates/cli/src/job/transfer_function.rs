@@ -25,7 +25,7 @@ mod tests {
 
     #[test]
     fn an_unknown_name_is_told_the_presets() {
-        let error = transfer_function_choice("no-such").err().expect("refused").to_string();
+        let error = transfer_function_choice("no-such").expect_err("refused").to_string();
         assert!(error.contains("--tf no-such") && error.contains(PRESETS[0].name), "{error}");
     }
 }
