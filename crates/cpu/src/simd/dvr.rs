@@ -50,6 +50,8 @@ impl<'a> Projection for LaneDvr<'a> {
     type RowCells<'b> = &'a OccupiedRows;
     type Gathered<L: Lanes> = LaneDvrState<L>;
 
+    const LOOKS_AHEAD: bool = true;
+
     fn start(&self) -> DvrState {
         DvrState { color: [[0.0; PACKET]; 3], opacity: [0.0; PACKET], depth: [NO_SAMPLE as i32; PACKET] }
     }

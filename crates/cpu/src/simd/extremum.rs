@@ -56,6 +56,8 @@ impl Projection for LaneExtremum<'_> {
     /// The largest signed stored value of each cell.
     type Cells = Option<Vec<f32>>;
 
+    const LOOKS_AHEAD: bool = false;
+
     fn start(&self) -> ExtremumState {
         ExtremumState { signed: [f32::NEG_INFINITY; PACKET], number: [f32::INFINITY; PACKET] }
     }

@@ -34,6 +34,8 @@ impl Projection for LaneMean<'_> {
     type Gathered<L: Lanes> = LaneMeanState<L>;
     type Cells = ();
 
+    const LOOKS_AHEAD: bool = false;
+
     fn start(&self) -> MeanState {
         MeanState { sum: [0.0; PACKET], lost: [0.0; PACKET], samples: [0.0; PACKET] }
     }

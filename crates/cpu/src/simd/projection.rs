@@ -17,6 +17,9 @@ pub trait Projection: Sync {
     /// What vectors of rays have gathered.
     type Gathered<L: Lanes>: Copy;
 
+    /// Whether, where rays go along rows, it pays to look at a run's cells before its samples: where that takes a bit each.
+    const LOOKS_AHEAD: bool;
+
     fn start(&self) -> Self::State;
 
     /// The rays that samples with stored values in [min, max] cannot change, by bit.

@@ -1,4 +1,4 @@
-use glassbrick_volume::PlannedBrick;
+use glassbrick_volume::{CELL_EDGE_LOG2, PlannedBrick};
 
 use super::super::avx512::Avx512;
 use super::super::lanes::Lanes;
@@ -17,6 +17,9 @@ pub const MOST_ABREAST: usize = 4;
 /// So many samples ahead, voxels are asked for from memory.
 const AHEAD: usize = 8;
 
+/// Along an edge of a cell.
+const CELL_VOXELS: f32 = (1 << CELL_EDGE_LOG2) as f32;
+
 /// A brick of a line and what the projection made of its cells.
 pub struct Lined<'a, V, C> {
     pub planned: &'a PlannedBrick,
@@ -31,6 +34,14 @@ pub struct RowPacket<G> {
     pub steps: LaneSteps<Avx512>,
     pub open: M,
     pub gathered: G,
+}
+
+impl<G> RowPacket<G> {
+    /// Where the samples of a number lie along x: multiplied, then added, as the definition of the picture has it.
+    #[inline(always)]
+    fn x(&self, number: F) -> F {
+        Avx512::add(self.start_x, Avx512::mul(number, self.step_x))
+    }
 }
 
 /// What marching through a section did.
@@ -56,6 +67,9 @@ pub fn march<P: Projection, V: RowVoxel, const N: usize>(
         if !matters(projection, packet, &bricks, run) {
             continue;
         }
+        if P::LOOKS_AHEAD && !comes_to_what_matters(projection, packet, &bricks, run) {
+            continue;
+        }
         for number in run.numbers.clone() {
             let place = (number - track.first) as usize;
             if let Some(ahead) = track.steps.get(place + AHEAD) {
@@ -65,8 +79,7 @@ pub fn march<P: Projection, V: RowVoxel, const N: usize>(
             }
             let step = &track.steps[place];
             let number = Avx512::splat(number as f32);
-            // Multiplied, then added, as the definition of the picture has it.
-            let x = Avx512::add(packet.start_x, Avx512::mul(number, packet.step_x));
+            let x = packet.x(number);
             let floor = Avx512::floor(x);
             let (voxel_x, fraction_x) = (Avx512::to_i(floor), Avx512::sub(x, floor));
             let mut rays = [0; N];
@@ -75,7 +88,7 @@ pub fn march<P: Projection, V: RowVoxel, const N: usize>(
                 let Lined { brick: RowBrick { owned_x: [low, high], .. }, cells, .. } = &bricks[brick];
                 let owned =
                     packet.open & Avx512::ge(x, Avx512::splat(*low)) & Avx512::lt(x, Avx512::splat(*high));
-                let cell_x = Avx512::shift_right::<3>(bricks[brick].brick.local(voxel_x));
+                let cell_x = Avx512::shift_right::<CELL_EDGE_LOG2>(bricks[brick].brick.local(voxel_x));
                 let gathered = &packet.gathered;
                 rays[brick] = owned
                     & projection.cells_may_change::<Avx512>(cells, run.cell_row, cell_x, gathered, number);
@@ -113,6 +126,40 @@ fn matters<P: Projection, V: RowVoxel, const N: usize>(
         matters |= projection.row_may_change::<Avx512>(cells, run.cell_row, gathered, first, packet.open);
     }
     matters
+}
+
+/// Whether any of a packet's rays comes to a cell in a run that may change it. Along x, a ray goes from its first sample's
+/// cell to its last one's, which is the same or the next; where rays go further, all are taken to matter.
+#[inline(always)]
+fn comes_to_what_matters<P: Projection, V: RowVoxel, const N: usize>(
+    projection: &P,
+    packet: &RowPacket<P::Gathered<Avx512>>,
+    bricks: &[&Lined<V, P::RowCells<'_>>; N],
+    run: &Run,
+) -> bool {
+    // No closures here: they would not be compiled for these instructions.
+    let first = Avx512::splat(run.numbers.start as f32);
+    let last = Avx512::splat((run.numbers.end - 1) as f32);
+    let (enters, leaves) = (packet.x(first), packet.x(last));
+    if Avx512::any(Avx512::gt(Avx512::abs(Avx512::sub(leaves, enters)), Avx512::splat(CELL_VOXELS))) {
+        return true;
+    }
+    let (low_x, high_x) = (Avx512::min(enters, leaves), Avx512::max(enters, leaves));
+    let (first_x, last_x) = (Avx512::to_i(Avx512::floor(enters)), Avx512::to_i(Avx512::floor(leaves)));
+    let mut rays = 0;
+    for Lined { brick, cells, .. } in bricks {
+        let [low, high] = brick.owned_x;
+        let passes =
+            packet.open & Avx512::ge(high_x, Avx512::splat(low)) & Avx512::lt(low_x, Avx512::splat(high));
+        let first_cell = Avx512::shift_right::<CELL_EDGE_LOG2>(brick.local(first_x));
+        let last_cell = Avx512::shift_right::<CELL_EDGE_LOG2>(brick.local(last_x));
+        let gathered = &packet.gathered;
+        let cell_row = run.cell_row;
+        rays |= passes
+            & (projection.cells_may_change::<Avx512>(cells, cell_row, first_cell, gathered, first)
+                | projection.cells_may_change::<Avx512>(cells, cell_row, last_cell, gathered, first));
+    }
+    rays != 0
 }
 
 /// The voxels around the samples of one number.
