@@ -2,6 +2,7 @@
 
 use super::{Compared, ComparedGroup, ComparedTime, Comparison, NoLongerRun, TimeChange};
 use crate::output::{Group, groups};
+use crate::runner::NOT_ASKED_FOR;
 use crate::{BenchResults, Run};
 
 /// Pictures may differ by so much more whatever the tolerance: a driver's rounding is of this size.
@@ -54,6 +55,7 @@ fn reason(results: &BenchResults, group: &Group<'_>) -> Option<String> {
     data_set.transfer_functions.iter().find(|tf| *tf == group.tf)?;
     let record = results.executors.iter().find(|record| record.name == group.executor)?;
     match (record.reasons.is_empty(), record.ran) {
+        (false, _) if record.reasons == [NOT_ASKED_FOR] => None,
         (false, _) => Some(record.reasons.join(" ")),
         (true, false) => Some("no reason was given".to_owned()),
         (true, true) => None,

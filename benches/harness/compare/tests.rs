@@ -1,3 +1,4 @@
+use crate::runner::NOT_ASKED_FOR;
 use super::*;
 use crate::output::sample::results;
 use crate::{Run, Spread};
@@ -105,6 +106,15 @@ fn an_executor_that_no_longer_runs_is_a_regression_with_its_reason() {
     assert_eq!(comparison.no_longer_run.len(), 9);
     assert!(comparison.is_regression());
     assert!(comparison_table(&comparison).contains("raycast no longer runs: no adapter"));
+}
+
+#[test]
+fn an_executor_that_was_not_asked_for_is_told_and_not_judged() {
+    let (old, mut new) = (results(), results());
+    new.runs.retain(|run| run.executor != "raycast");
+    (new.executors[3].ran, new.executors[3].reasons) = (false, vec![NOT_ASKED_FOR.to_owned()]);
+    let comparison = compare(&old, &new, TOLERANCE).unwrap();
+    assert_eq!((comparison.only_in_one.len(), comparison.is_regression()), (9, false));
 }
 
 #[test]

@@ -41,7 +41,7 @@ pub struct BrickCounts {
     pub filtered_visible: usize,
     /// Of these, what lies in the frustum.
     pub in_frustum: usize,
-    /// Of these, what was hidden before it was loaded.
+    /// Of these, what was hidden before the CPU loaded it; on a GPU, what was not rendered, loaded or not.
     pub occluded: usize,
     /// Bricks of which at least one sample was evaluated.
     pub rendered: usize,
