@@ -1,6 +1,6 @@
-use crate::runner::NOT_ASKED_FOR;
 use super::*;
 use crate::output::sample::results;
+use crate::runner::NOT_ASKED_FOR;
 use crate::{Run, Spread};
 
 const TOLERANCE: f64 = 0.05;
