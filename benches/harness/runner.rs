@@ -27,10 +27,10 @@ pub struct Runner<'a> {
 }
 
 impl Runner<'_> {
-    /// Measures everything. What an executor cannot do is said in its record, and the others go on.
+    /// Measures everything. What an executor cannot do, or not of a data set, is said in its record, and the others go on.
     ///
     /// # Errors
-    /// When a data set cannot be opened, or a file cannot be written.
+    /// When a data set that is named cannot be opened, which is found out before anything is measured.
     pub fn run(&self, provenance: Provenance) -> Result<BenchResults, BenchError> {
         let places = Places::new(self.scratch)?;
         let mut results = BenchResults {
@@ -43,43 +43,63 @@ impl Runner<'_> {
             budgets: Vec::new(),
             nearly_empty: Vec::new(),
         };
+        let named = self.plan.data_sets.iter().filter(|data_set| matches!(data_set.origin, Origin::File(_)));
+        for data_set in named {
+            self.describe(data_set)?;
+        }
         let tasks: Vec<(usize, Task)> = self.plan.tasks().into_iter().enumerate().collect();
-        let whole: usize = tasks.iter().map(|&(_, task)| self.plan.results_of(task)).sum();
-        let mut done = 0;
+        let mut done =
+            Done { results: 0, of: tasks.iter().map(|&(_, task)| self.plan.results_of(task)).sum() };
         for (index, data_set) in self.plan.data_sets.iter().enumerate() {
-            if let Origin::Generated(phantom) = &data_set.origin {
-                self.generate(phantom, data_set)?;
-            }
-            let record = self.describe(data_set)?;
-            results.settings.threads = record.1;
-            let names = record.0.transfer_functions.clone();
-            results.data_sets.push(record.0);
-            for &(number, task) in tasks.iter().filter(|(_, task)| task.data_set == index) {
-                let can_run = self.no_gpu.is_none() || !task.executor.needs_gpu();
-                if can_run {
-                    let what = format!(
-                        "{} {} {}",
-                        data_set.name,
-                        names[task.transfer_function],
-                        task.executor.name()
-                    );
-                    let told = &|of_task: usize| {
-                        (self.progress)(&what, Some((done + of_task) as f32 / whole.max(1) as f32));
-                    };
-                    if let Err(why) = self.do_task(number, &places, &mut results, told) {
-                        let executor = &mut results.executors[task.executor as usize];
-                        executor.reasons.push(format!("{what}: {why}"));
-                    }
+            let of_data_set = tasks.iter().filter(|(_, task)| task.data_set == index);
+            if let Err(error) = self.measure(data_set, of_data_set.copied(), &places, &mut results, &mut done)
+            {
+                // What was measured of others is not lost for that.
+                for &executor in self.plan.executors.iter().filter(|&&executor| self.can_run(executor)) {
+                    let reasons = &mut results.executors[executor as usize].reasons;
+                    reasons.push(format!("{}: {error}", data_set.name));
                 }
-                done += self.plan.results_of(task);
             }
-            self.clear(data_set)?;
         }
         in_the_order_of_executors(&mut results);
         for record in &mut results.executors {
             record.ran = results.runs.iter().any(|run| run.executor == record.name);
         }
         Ok(results)
+    }
+
+    /// Does the tasks of a data set, which is made before if it is generated, and removed behind.
+    fn measure(
+        &self,
+        data_set: &DataSet,
+        tasks: impl Iterator<Item = (usize, Task)>,
+        places: &Places,
+        results: &mut BenchResults,
+        done: &mut Done,
+    ) -> Result<(), BenchError> {
+        if let Origin::Generated(phantom) = &data_set.origin {
+            self.generate(phantom, data_set)?;
+        }
+        let (record, threads) = self.describe(data_set)?;
+        let names = record.transfer_functions.clone();
+        results.settings.threads = threads;
+        results.data_sets.push(record);
+        for (number, task) in tasks {
+            if self.can_run(task.executor) {
+                let function = &names[task.transfer_function];
+                let what = format!("{} {function} {}", data_set.name, task.executor.name());
+                let told = |of_task| (self.progress)(&what, Some(done.share(of_task)));
+                if let Err(why) = self.do_task(number, places, results, &told) {
+                    results.executors[task.executor as usize].reasons.push(format!("{what}: {why}"));
+                }
+            }
+            done.results += self.plan.results_of(task);
+        }
+        self.clear(data_set)
+    }
+
+    fn can_run(&self, executor: Executor) -> bool {
+        self.no_gpu.is_none() || !executor.needs_gpu()
     }
 
     fn settings(&self) -> BenchSettings {
@@ -186,6 +206,19 @@ impl Runner<'_> {
             fs::remove_file(&path).map_err(|source| BenchError::File { path, source })?;
         }
         Ok(())
+    }
+}
+
+/// How many of a benchmark's results are there.
+struct Done {
+    results: usize,
+    of: usize,
+}
+
+impl Done {
+    /// The share that is done with so many of a task's.
+    fn share(&self, of_task: usize) -> f32 {
+        (self.results + of_task) as f32 / self.of.max(1) as f32
     }
 }
 

@@ -73,10 +73,12 @@ fn measure(plan: &BenchPlan, folder: &Path, words: &[OsString], start: Instant) 
         let reasons = results.executors.iter().flat_map(|executor| &executor.reasons);
         bail!("nothing could be measured: {}", reasons.cloned().collect::<Vec<_>>().join("; "));
     }
+    // First what would be lost if files could not be written.
+    terminal::print(&table(&results))?;
     let files = write_results(&results, folder, &scratch.0)?;
     let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     let took = time(start.elapsed().as_secs_f64() * 1e3);
-    terminal::print(&format!("{}\nWrote {}\nin {took}.", table(&results), files.join("\n      ")))
+    terminal::print(&format!("Wrote {}\nin {took}.", files.join("\n      ")))
 }
 
 /// The command without the folder that the program happens to lie in.
