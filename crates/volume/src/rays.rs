@@ -117,18 +117,29 @@ impl FrameRays {
         let (x, y) = (self.across(column), self.along(row));
         let aside = self.right_voxel * x + self.up_voxel * y;
         let depth_mm = (self.first_sample as f64 + 0.5) * self.step_mm;
-        let (start, direction, length) = if self.perspective {
+        let (start, direction) = if self.perspective {
             let ray = self.forward_voxel + aside;
-            let [right, up] = [self.half_extent[0] * x, self.half_extent[1] * y];
-            (self.eye_voxel + ray * depth_mm, ray, (1.0 + right * right + up * up).sqrt())
+            (self.eye_voxel + ray * depth_mm, ray)
         } else {
-            (self.eye_voxel + aside + self.forward_voxel * depth_mm, self.forward_voxel, 1.0)
+            (self.eye_voxel + aside + self.forward_voxel * depth_mm, self.forward_voxel)
         };
         Ray {
             start: start.as_vec3(),
             step: (direction * self.step_mm).as_vec3(),
-            step_length_mm: (length * self.step_mm) as f32,
+            step_length_mm: self.step_length_mm(column, row),
         }
+    }
+
+    /// The world length of a step of the ray through the centre of pixel (column, row), Δ·|ray|.
+    pub fn step_length_mm(&self, column: u32, row: u32) -> f32 {
+        let length = if self.perspective {
+            let [right, up] =
+                [self.half_extent[0] * self.across(column), self.half_extent[1] * self.along(row)];
+            (1.0 + right * right + up * up).sqrt()
+        } else {
+            1.0
+        };
+        (length * self.step_mm) as f32
     }
 
     /// The size of a pixel at depth 1 mm; of any pixel where rays are parallel.

@@ -109,7 +109,7 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
     fn start(&self, row: u32, Span { first, lanes }: Span) -> RowPacket<P::Gathered<Avx512>> {
         let mut length_mm = [1.0; PACKET];
         for (column, length_mm) in (first..first + lanes).zip(&mut length_mm) {
-            *length_mm = self.picture.scene.rays.ray(column as u32, row).step_length_mm;
+            *length_mm = self.picture.scene.rays.step_length_mm(column as u32, row);
         }
         let [step_y, step_z] = self.ray.step;
         let step_x = Avx512::load(&self.rays.step_x[first..]);
@@ -139,7 +139,7 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
         let line = self.bricks.line(section.line);
         let core = self.picture.grid.layout.core() as f32;
         // Positions beyond the volume meet no brick, but looking at one more does no harm.
-        let brick_at = |x: f32| (((x + 0.5) / core).floor().max(0.0) as usize).min(line.len() - 1);
+        let brick_at = |x: f32| (((x + 0.5) / core).max(0.0) as usize).min(line.len() - 1);
         line[brick_at(low)..=brick_at(high)].iter().copied().flatten()
     }
 
