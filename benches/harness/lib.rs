@@ -34,7 +34,7 @@ pub use difference::difference;
 pub use error::BenchError;
 pub use executor::Executor;
 pub use machine::provenance;
-pub use output::{PagePicture, Plot, csv, page, plots, table};
+pub use output::{PagePicture, Plot, aligned, count, csv, page, plots, table};
 pub use plan::{
     BenchPlan, DataSet, NamedTransferFunction, Origin, PAPER_EXTENTS, QUICK_EXTENTS, Task, TaskKind,
     in_file_names, with_distinct_names,

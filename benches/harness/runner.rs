@@ -43,17 +43,22 @@ impl Runner<'_> {
             budgets: Vec::new(),
             nearly_empty: Vec::new(),
         };
-        let named = self.plan.data_sets.iter().filter(|data_set| matches!(data_set.origin, Origin::File(_)));
-        for data_set in named {
-            self.describe(data_set)?;
+        let mut described = Vec::new();
+        for data_set in &self.plan.data_sets {
+            described.push(match data_set.origin {
+                Origin::File(_) => Some(self.describe(data_set)?),
+                Origin::Generated(_) => None,
+            });
         }
         let tasks: Vec<(usize, Task)> = self.plan.tasks().into_iter().enumerate().collect();
         let mut done =
             Done { results: 0, of: tasks.iter().map(|&(_, task)| self.plan.results_of(task)).sum() };
-        for (index, data_set) in self.plan.data_sets.iter().enumerate() {
-            let of_data_set = tasks.iter().filter(|(_, task)| task.data_set == index);
-            if let Err(error) = self.measure(data_set, of_data_set.copied(), &places, &mut results, &mut done)
-            {
+        for (index, (data_set, described)) in self.plan.data_sets.iter().zip(described).enumerate() {
+            let tasks = tasks.iter().filter(|(_, task)| task.data_set == index).copied();
+            let measured = self.describe_made(data_set, described).and_then(|described| {
+                self.measure(data_set, described, tasks, &places, &mut results, &mut done)
+            });
+            if let Err(error) = measured {
                 // What was measured of others is not lost for that.
                 for &executor in self.plan.executors.iter().filter(|&&executor| self.can_run(executor)) {
                     let reasons = &mut results.executors[executor as usize].reasons;
@@ -68,19 +73,31 @@ impl Runner<'_> {
         Ok(results)
     }
 
-    /// Does the tasks of a data set, which is made before if it is generated, and removed behind.
+    /// What a data set is; it is made before if it is generated.
+    fn describe_made(
+        &self,
+        data_set: &DataSet,
+        described: Option<Described>,
+    ) -> Result<Described, BenchError> {
+        if let Some(described) = described {
+            return Ok(described);
+        }
+        if let Origin::Generated(phantom) = &data_set.origin {
+            self.generate(phantom, data_set)?;
+        }
+        self.describe(data_set)
+    }
+
+    /// Does the tasks of a data set, and removes what was generated for it.
     fn measure(
         &self,
         data_set: &DataSet,
+        Described { record, threads }: Described,
         tasks: impl Iterator<Item = (usize, Task)>,
         places: &Places,
         results: &mut BenchResults,
         done: &mut Done,
     ) -> Result<(), BenchError> {
-        if let Origin::Generated(phantom) = &data_set.origin {
-            self.generate(phantom, data_set)?;
-        }
-        let (record, threads) = self.describe(data_set)?;
         let names = record.transfer_functions.clone();
         results.settings.threads = threads;
         results.data_sets.push(record);
@@ -137,8 +154,7 @@ impl Runner<'_> {
         made.map_err(|source| BenchError::File { path, source })
     }
 
-    /// What a data set is, and how many threads work on it.
-    fn describe(&self, data_set: &DataSet) -> Result<(DataSetRecord, usize), BenchError> {
+    fn describe(&self, data_set: &DataSet) -> Result<Described, BenchError> {
         (self.progress)(&format!("opening {}", data_set.name), None);
         let volume = data_set.open(self.scratch, None)?;
         let desc = volume.desc();
@@ -157,7 +173,7 @@ impl Runner<'_> {
             bricks: volume.bricks().grid(0).len(),
             transfer_functions: functions.into_iter().map(|function| function.name).collect(),
         };
-        Ok((record, volume.threads()))
+        Ok(Described { record, threads: volume.threads() })
     }
 
     /// Does a task in a process of its own, and takes in what that tells.
@@ -175,13 +191,14 @@ impl Runner<'_> {
         let process = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(complaints).spawn();
         let mut process = process.map_err(|error| format!("its process cannot be started: {error}"))?;
         let stdout = process.stdout.take().ok_or("its process has no stdout")?;
-        for (of_task, line) in BufReader::new(stdout).lines().map_while(Result::ok).enumerate() {
-            match serde_json::from_str(&line) {
-                Ok(Record::Run(run)) => results.runs.push(*run),
-                Ok(Record::Budget(point)) => results.budgets.push(*point),
-                Ok(Record::NearlyEmpty(point)) => results.nearly_empty.push(*point),
-                // Drivers may print what they like.
-                Err(_) => continue,
+        // Drivers may print what they like between records: bytes that are no text, too.
+        let records = BufReader::new(stdout).split(b'\n').map_while(Result::ok);
+        let records = records.filter_map(|line| serde_json::from_slice(&line).ok());
+        for (of_task, record) in records.enumerate() {
+            match record {
+                Record::Run(run) => results.runs.push(*run),
+                Record::Budget(point) => results.budgets.push(*point),
+                Record::NearlyEmpty(point) => results.nearly_empty.push(*point),
             }
             told(of_task + 1);
         }
@@ -207,6 +224,13 @@ impl Runner<'_> {
         }
         Ok(())
     }
+}
+
+/// What a data set is.
+struct Described {
+    record: DataSetRecord,
+    /// That work on it.
+    threads: usize,
 }
 
 /// How many of a benchmark's results are there.

@@ -1,6 +1,6 @@
 //! The same frame with memories of several sizes, and with several α and β.
 
-use glassbrick::{NearlyEmpty, RenderRequest, Renderer, VolumeDesc};
+use glassbrick::{NearlyEmpty, RenderRequest, Renderer, Volume, VolumeDesc};
 
 use crate::difference::difference;
 use crate::measure::{Measurement, residency, stages, times_again};
@@ -39,7 +39,7 @@ const fn beta(beta: f64) -> NearlyEmpty {
 const TEXTURE_EDGE: u64 = 256;
 
 /// Bytes of an atlas texture: voxels of more than two bytes are kept in four.
-fn texture_bytes(desc: &VolumeDesc) -> u64 {
+pub fn texture_bytes(desc: &VolumeDesc) -> u64 {
     TEXTURE_EDGE.pow(3) * desc.stored_type.bytes().min(4) as u64
 }
 
@@ -51,6 +51,7 @@ impl Measurement<'_> {
     pub fn budgets(
         &self,
         request: &RenderRequest,
+        texture_bytes: u64,
         mut tell: impl FnMut(BudgetPoint) -> Result<(), BenchError>,
     ) -> Result<(), BenchError> {
         let data_set = &self.plan.data_sets[self.task.data_set];
@@ -58,9 +59,7 @@ impl Measurement<'_> {
         let budgets: Vec<(u64, Option<u32>)> = if is_cpu {
             CPU_BUDGETS_BYTES.map(|bytes| (bytes, None)).to_vec()
         } else {
-            let volume = data_set.open(&self.places.scratch, None)?;
-            let one = texture_bytes(volume.desc());
-            TEXTURE_COUNTS.map(|count| (u64::from(count) * one, Some(count))).to_vec()
+            TEXTURE_COUNTS.map(|count| (u64::from(count) * texture_bytes, Some(count))).to_vec()
         };
         let mut in_most_memory = None;
         for (budget_bytes, textures) in budgets {
@@ -96,15 +95,15 @@ impl Measurement<'_> {
     /// As of [`Measurement::views`].
     pub fn nearly_empty(
         &self,
+        volume: &Volume,
         request: &RenderRequest,
         mut tell: impl FnMut(NearlyEmptyPoint) -> Result<(), BenchError>,
     ) -> Result<(), BenchError> {
         let data_set = &self.plan.data_sets[self.task.data_set];
-        let volume = data_set.open(&self.places.scratch, None)?;
         let camera = self.plan.views[0].camera(volume.desc());
         let mut exact = None;
         for nearly_empty in NEARLY_EMPTY {
-            let renderer = Renderer::new(&volume, RenderRequest { nearly_empty, ..request.clone() })?;
+            let renderer = Renderer::new(volume, RenderRequest { nearly_empty, ..request.clone() })?;
             let first = renderer.draw(&camera, 1)?;
             let times_ms = times_again(&renderer, &camera, self.plan.repeat)?;
             let bricks = stages(&first.report.bricks);

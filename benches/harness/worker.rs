@@ -6,6 +6,7 @@ use glassbrick::{Backend, Gpu};
 use crate::measure::Measurement;
 use crate::places::Places;
 use crate::record::Record;
+use crate::sweep::texture_bytes;
 use crate::{BenchError, BenchPlan, Executor, TaskKind};
 
 /// SW keeps the whole volume itself.
@@ -40,12 +41,12 @@ pub fn work(
     match task.kind {
         TaskKind::Views => measurement.views(&volume, request, |run| tell(Record::Run(Box::new(run)))),
         TaskKind::Budgets => {
+            let texture_bytes = texture_bytes(volume.desc());
             drop(volume);
-            measurement.budgets(&request, |point| tell(Record::Budget(Box::new(point))))
+            measurement.budgets(&request, texture_bytes, |point| tell(Record::Budget(Box::new(point))))
         }
         TaskKind::NearlyEmpty => {
-            drop(volume);
-            measurement.nearly_empty(&request, |point| tell(Record::NearlyEmpty(Box::new(point))))
+            measurement.nearly_empty(&volume, &request, |point| tell(Record::NearlyEmpty(Box::new(point))))
         }
     }
 }

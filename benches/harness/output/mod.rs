@@ -10,7 +10,8 @@ pub mod sample;
 mod table;
 
 pub use csv::csv;
-pub(crate) use figures::{NOTHING, aligned, count, megabytes, or_nothing, significant};
+pub(crate) use figures::{NOTHING, megabytes, or_nothing, significant};
+pub use figures::{aligned, count};
 pub(crate) use groups::{Group, groups};
 pub use page::{PagePicture, page};
 pub use plots::{Plot, plots};

@@ -1,5 +1,7 @@
 //! Numbers as people read them.
 
+pub use glassbrick_benches::{aligned, count};
+
 /// Significant digits of numbers whose exact value does not matter.
 const DIGITS: i32 = 7;
 
@@ -15,19 +17,6 @@ pub fn number(value: f64) -> String {
     let decimals = (DIGITS - 1 - magnitude as i32).max(0) as usize;
     let text = format!("{value:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-}
-
-/// A whole number with commas between thousands.
-pub fn count(value: u64) -> String {
-    let digits = value.to_string();
-    let mut text = String::with_capacity(digits.len() * 4 / 3);
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 /// A number of bytes in units of 1000.

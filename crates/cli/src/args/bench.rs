@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{ExecutorChoice, ModeChoice, OpeningArgs, ShadingChoice, presets_help};
+use super::{DrawingArgs, ExecutorChoice, OpeningArgs, presets_help};
 use crate::parse;
 
 const COMPARING: &str = "Comparing";
@@ -29,39 +29,20 @@ pub struct BenchArgs {
     /// ct-bone, ct-skin and haze, others with auto, mr and grey, and projections with auto
     #[arg(long, value_name = "FILE|PRESET|auto")]
     pub tf: Vec<String>,
-    /// What a ray makes of the values that it meets
-    #[arg(long, value_enum, default_value_t = ModeChoice::Dvr)]
-    pub mode: ModeChoice,
-    /// Light on surfaces, in mode dvr
-    #[arg(long, value_enum, default_value_t = ShadingChoice::Off)]
-    pub shading: ShadingChoice,
+    #[command(flatten)]
+    pub drawing: DrawingArgs,
     /// What draws, with commas between; everything by default
     #[arg(long, value_enum, value_delimiter = ',', value_name = "EXECUTOR,…")]
     pub executors: Vec<ExecutorChoice>,
     /// Width and height in pixels; 512x512, with --quick 256x256
     #[arg(long, value_name = "WxH", value_parser = parse::picture_size)]
     pub size: Option<[u32; 2]>,
-    /// Distance of samples, in voxels of the smallest spacing
-    #[arg(long, value_name = "VOXELS", default_value = "1.0", allow_negative_numbers = true, value_parser = parse::positive)]
-    pub step: f64,
-    /// Opacity at which a ray stops; 1 never stops
-    #[arg(
-        long, value_name = "OPACITY", default_value = "0.998", allow_negative_numbers = true,
-        value_parser = parse::opacity_cutoff
-    )]
-    pub opacity_cutoff: f64,
     /// Views of the turntable; 8, with --quick 4. Three of a fly-in and one from inside are added
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=360))]
     pub views: Option<u32>,
     /// How often each picture is drawn for its times, at most; 5, with --quick 3
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub repeat: Option<u32>,
-    /// Memory for decoded bricks, with KB, MB, GB, KiB, MiB or GiB; a quarter of the machine's by default
-    #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = parse::bytes)]
-    pub memory: Option<u64>,
-    /// Memory of a GPU for bricks, with KB, MB, GB, KiB, MiB or GiB; 512MiB by default
-    #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = parse::bytes)]
-    pub gpu_memory: Option<u64>,
     /// Compares two earlier benchmarks and measures nothing; exits with 1 where the second is worse
     #[arg(
         long, num_args = 2, value_names = ["OLD.json", "NEW.json"], conflicts_with_all = ["inputs", "output", "phantom"],

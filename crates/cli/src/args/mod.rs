@@ -3,6 +3,7 @@
 mod bench;
 mod choices;
 mod demo;
+mod drawing;
 mod info;
 mod ingest;
 mod input;
@@ -18,6 +19,7 @@ pub use choices::{
     ShadingChoice, SkipChoice, ViewChoice,
 };
 pub use demo::DemoArgs;
+pub use drawing::DrawingArgs;
 pub use info::InfoArgs;
 pub use ingest::IngestArgs;
 pub use input::{InputArgs, OpeningArgs, RawArgs};

@@ -3,9 +3,7 @@ use std::path::PathBuf;
 use clap::Args;
 use glassbrick::{Background, LevelChoice};
 
-use super::{
-    BackendChoice, InputArgs, ModeChoice, PassChoice, ShadingChoice, SkipChoice, ViewArgs, presets_help,
-};
+use super::{BackendChoice, DrawingArgs, InputArgs, PassChoice, SkipChoice, ViewArgs, presets_help};
 use crate::parse;
 
 #[derive(Args, Clone, Debug)]
@@ -22,21 +20,8 @@ pub struct RenderArgs {
     /// The transfer function: a file, a preset, or auto, which makes one from the histogram
     #[arg(long, value_name = "FILE|PRESET|auto", default_value = "auto")]
     pub tf: String,
-    /// What a ray makes of the values that it meets
-    #[arg(long, value_enum, default_value_t = ModeChoice::Dvr)]
-    pub mode: ModeChoice,
-    /// Light on surfaces, in mode dvr
-    #[arg(long, value_enum, default_value_t = ShadingChoice::Off)]
-    pub shading: ShadingChoice,
-    /// Distance of samples, in voxels of the smallest spacing
-    #[arg(long, value_name = "VOXELS", default_value = "1.0", allow_negative_numbers = true, value_parser = parse::positive)]
-    pub step: f64,
-    /// Opacity at which a ray stops; 1 never stops
-    #[arg(
-        long, value_name = "OPACITY", default_value = "0.998", allow_negative_numbers = true,
-        value_parser = parse::opacity_cutoff
-    )]
-    pub opacity_cutoff: f64,
+    #[command(flatten)]
+    pub drawing: DrawingArgs,
     /// Drops bricks of which no more than this fraction lies in or below a band; 0 drops none
     #[arg(long, value_name = "FRACTION", default_value = "0", allow_negative_numbers = true, value_parser = parse::fraction)]
     pub alpha: f64,
@@ -58,12 +43,6 @@ pub struct RenderArgs {
     /// Leaves out bricks of a store that are damaged, and says so in the report
     #[arg(long)]
     pub allow_damaged: bool,
-    /// Memory for decoded bricks, with KB, MB, GB, KiB, MiB or GiB; a quarter of the machine's by default
-    #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = parse::bytes)]
-    pub memory: Option<u64>,
-    /// Memory of a GPU for bricks, with KB, MB, GB, KiB, MiB or GiB; 512MiB by default
-    #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = parse::bytes)]
-    pub gpu_memory: Option<u64>,
     /// What stands behind the picture: #rrggbb or transparent; black by default. EXR keeps its alpha
     #[arg(long, value_name = "COLOR", value_parser = parse::background)]
     pub background: Option<Background>,

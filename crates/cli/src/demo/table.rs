@@ -1,12 +1,15 @@
+use comfy_table::Table;
 use comfy_table::presets::UTF8_FULL_CONDENSED;
-use comfy_table::{Cell, CellAlignment, Table};
 use glassbrick::FrameReport;
 
 use super::DemoPicture;
-use crate::figures::{count, percent};
+use crate::figures::{aligned, count, percent};
 
 const HEADER: [&str; 9] =
     ["picture", "bricks", "empty", "in frustum", "occluded", "rendered", "fraction", "samples", "ms"];
+
+/// How many of the columns are words.
+const WORDS: usize = 1;
 
 /// What each picture took: how many bricks each stage left, and its time.
 pub fn table(drawn: &[(DemoPicture, FrameReport)]) -> String {
@@ -20,16 +23,7 @@ pub fn table(drawn: &[(DemoPicture, FrameReport)]) -> String {
         row.push(percent(bricks.rendered_fraction()));
         row.push(report.samples.map_or("—".to_owned(), count));
         row.push(format!("{:.1}", report.time_ms.render));
-        table.add_row(aligned(row));
+        table.add_row(aligned(row, WORDS));
     }
     table.to_string()
-}
-
-/// Words to the left, numbers to the right.
-fn aligned(row: Vec<String>) -> Vec<Cell> {
-    let align = |(column, text)| {
-        let alignment = if column == 0 { CellAlignment::Left } else { CellAlignment::Right };
-        Cell::new(text).set_alignment(alignment)
-    };
-    row.into_iter().enumerate().map(align).collect()
 }

@@ -71,27 +71,27 @@ impl BenchJob {
 
 fn plan(args: &BenchArgs) -> Result<BenchPlan> {
     let scale = if args.quick { QUICK } else { FULL };
-    let mode = mode(args.mode);
-    let shading = shading(args.shading);
+    let mode = mode(args.drawing.mode);
+    let shading = shading(args.drawing.shading);
     if shading.is_some() && mode != Mode::Dvr {
         return Err(UsageError("--shading concerns mode dvr alone".to_owned()).into());
     }
-    let opacity_cutoff = args.opacity_cutoff;
+    let opacity_cutoff = args.drawing.opacity_cutoff;
     Ok(BenchPlan {
         data_sets: data_sets(args, &scale),
         transfer_functions: transfer_functions(args)?,
         executors: executors(&args.executors),
         views: views(args.views.unwrap_or(scale.views)),
         size: args.size.unwrap_or(scale.size),
-        step_voxels: args.step,
+        step_voxels: args.drawing.step,
         settings: RenderSettings { mode, shading, opacity_cutoff, ..RenderSettings::default() },
-        gpu_memory_bytes: args.gpu_memory.unwrap_or(DEFAULT_GPU_MEMORY_BYTES),
+        gpu_memory_bytes: args.drawing.gpu_memory.unwrap_or(DEFAULT_GPU_MEMORY_BYTES),
         repeat: args.repeat.unwrap_or(scale.repeat) as usize,
     })
 }
 
 fn data_sets(args: &BenchArgs, scale: &Scale) -> Vec<DataSet> {
-    let settings = open_settings(&args.opening, args.memory);
+    let settings = open_settings(&args.opening, args.drawing.memory);
     let extents = if args.inputs.is_empty() && args.phantom.is_empty() {
         scale.extents.to_vec()
     } else {

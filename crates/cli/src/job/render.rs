@@ -44,18 +44,18 @@ impl RenderJob {
         let output = Output::new(&args.output, args.frames, background)?;
         check_report(args, &output)?;
         Ok(Self {
-            input: InputJob::new(&args.input, args.memory),
+            input: InputJob::new(&args.input, args.drawing.memory),
             transfer_function: transfer_function_choice(&args.tf)?,
             view: View::new(&args.view)?,
             size: args.size,
-            step_voxels: args.step,
+            step_voxels: args.drawing.step,
             settings: render_settings(args),
             nearly_empty: NearlyEmpty { alpha: args.alpha, beta: args.beta },
             level: args.level,
             allow_damaged: args.allow_damaged,
             backend: args.backend,
             pass: gpu_pass(args),
-            gpu_memory_bytes: args.gpu_memory.unwrap_or(DEFAULT_GPU_MEMORY_BYTES),
+            gpu_memory_bytes: args.drawing.gpu_memory.unwrap_or(DEFAULT_GPU_MEMORY_BYTES),
             repeat: args.repeat as usize,
             background,
             warnings: idle_flags(args, output.keeps_alpha()),

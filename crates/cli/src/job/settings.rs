@@ -7,9 +7,9 @@ use crate::args::{ModeChoice, PassChoice, RenderArgs, ShadingChoice, SkipChoice}
 /// How frames are drawn.
 pub fn render_settings(args: &RenderArgs) -> RenderSettings {
     RenderSettings {
-        mode: mode(args.mode),
-        shading: shading(args.shading),
-        opacity_cutoff: args.opacity_cutoff,
+        mode: mode(args.drawing.mode),
+        shading: shading(args.drawing.shading),
+        opacity_cutoff: args.drawing.opacity_cutoff,
         skip: match args.skip {
             SkipChoice::None => Skip::None,
             SkipChoice::Empty => Skip::Empty,
@@ -48,7 +48,7 @@ pub fn gpu_pass(args: &RenderArgs) -> GpuPass {
 pub fn idle_flags(args: &RenderArgs, keeps_alpha: bool) -> Vec<String> {
     sentences([
         (
-            args.shading != ShadingChoice::Off && args.mode != ModeChoice::Dvr,
+            args.drawing.shading != ShadingChoice::Off && args.drawing.mode != ModeChoice::Dvr,
             "--shading does nothing: it concerns mode dvr alone",
         ),
         (args.background.is_some() && keeps_alpha, "--background does nothing: EXR keeps its alpha"),
@@ -59,7 +59,10 @@ pub fn idle_flags(args: &RenderArgs, keeps_alpha: bool) -> Vec<String> {
 pub fn idle_flags_on_cpu(args: &RenderArgs) -> Vec<String> {
     sentences([
         (args.pass.is_some(), "--pass does nothing: it concerns GPUs, and the CPU draws by layers"),
-        (args.gpu_memory.is_some(), "--gpu-memory does nothing: no GPU draws; the CPU's limit is --memory"),
+        (
+            args.drawing.gpu_memory.is_some(),
+            "--gpu-memory does nothing: no GPU draws; the CPU's limit is --memory",
+        ),
     ])
 }
 
