@@ -133,41 +133,118 @@ unsafe impl Lanes for Avx512 {
         unsafe { _mm512_i32gather_ps::<4>(indices, base) }
     }
 
-    /// Loads whole entries and transposes them: fewer loads than sixteen lanes gathered eight times.
+    /// Loads whole entries, and transposes them: fewer loads than sixteen lanes gathered eight times.
     #[inline(always)]
-    unsafe fn between(table: *const [f32; 4], entries: __m512i, fraction: __m512) -> [__m512; 4] {
-        // SAFETY: the caller promises that each entry and the next lie in the table; the rest touches no memory but its
-        // own.
+    unsafe fn between(
+        table: *const [f32; 4],
+        entries: __m512i,
+        fraction: __m512,
+        asked: __mmask16,
+    ) -> [__m512; 4] {
+        // SAFETY: the caller promises that each entry and the next lie in the table.
         unsafe {
-            let mut at = [0i32; 16];
-            _mm512_storeu_epi32(at.as_mut_ptr(), entries);
-            // Of a register's four quarters, the n-th holds the entry of lane 4·n + `first`.
-            macro_rules! mixed {
-                ($first:literal) => {{
-                    let quarter = |place: i32| _mm_loadu_ps(table.offset(place as isize).cast());
-                    let (at0, at1, at2, at3) = (at[$first], at[$first + 4], at[$first + 8], at[$first + 12]);
-                    let a = _mm512_broadcast_f32x4(quarter(at0));
-                    let a = _mm512_mask_broadcast_f32x4(a, 0x00F0, quarter(at1));
-                    let a = _mm512_mask_broadcast_f32x4(a, 0x0F00, quarter(at2));
-                    let a = _mm512_mask_broadcast_f32x4(a, 0xF000, quarter(at3));
-                    let b = _mm512_broadcast_f32x4(quarter(at0 + 1));
-                    let b = _mm512_mask_broadcast_f32x4(b, 0x00F0, quarter(at1 + 1));
-                    let b = _mm512_mask_broadcast_f32x4(b, 0x0F00, quarter(at2 + 1));
-                    let b = _mm512_mask_broadcast_f32x4(b, 0xF000, quarter(at3 + 1));
-                    let t = _mm512_permute_ps::<{ $first * 0x55 }>(fraction);
-                    _mm512_fmadd_ps(t, _mm512_sub_ps(b, a), a)
-                }};
+            if asked.count_ones() <= 4 {
+                between_of_four(table, entries, fraction, asked)
+            } else {
+                between_of_all(table, entries, fraction)
             }
-            let (v0, v1, v2, v3) = (mixed!(0), mixed!(1), mixed!(2), mixed!(3));
-            let (low01, high01) = (_mm512_unpacklo_ps(v0, v1), _mm512_unpackhi_ps(v0, v1));
-            let (low23, high23) = (_mm512_unpacklo_ps(v2, v3), _mm512_unpackhi_ps(v2, v3));
-            [
-                _mm512_shuffle_ps::<0x44>(low01, low23),
-                _mm512_shuffle_ps::<0xEE>(low01, low23),
-                _mm512_shuffle_ps::<0x44>(high01, high23),
-                _mm512_shuffle_ps::<0xEE>(high01, high23),
-            ]
         }
+    }
+}
+
+/// A register of four quarters.
+///
+/// # Safety
+/// Four numbers must lie at each, and AVX-512F be at hand.
+#[inline(always)]
+unsafe fn quarters(a: *const f32, b: *const f32, c: *const f32, d: *const f32) -> __m512 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let ab = _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(_mm_loadu_ps(a)), _mm_loadu_ps(b));
+        let cd = _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(_mm_loadu_ps(c)), _mm_loadu_ps(d));
+        _mm512_castpd_ps(_mm512_insertf64x4::<1>(
+            _mm512_castpd256_pd512(_mm256_castps_pd(ab)),
+            _mm256_castps_pd(cd),
+        ))
+    }
+}
+
+/// Between the entries at four places and the next ones: a register's n-th quarter by the n-th place, and by what that
+/// quarter of `fraction` holds.
+///
+/// # Safety
+/// The places and the next ones must lie in the table, and AVX-512F be at hand.
+#[inline(always)]
+unsafe fn mixed(table: *const [f32; 4], places: [i32; 4], fraction: __m512) -> __m512 {
+    // No closures here: they would not be compiled for these instructions.
+    // SAFETY: the caller's promise.
+    unsafe {
+        let [p0, p1, p2, p3] = [
+            table.offset(places[0] as isize).cast::<f32>(),
+            table.offset(places[1] as isize).cast::<f32>(),
+            table.offset(places[2] as isize).cast::<f32>(),
+            table.offset(places[3] as isize).cast::<f32>(),
+        ];
+        let a = quarters(p0, p1, p2, p3);
+        let b = quarters(p0.add(4), p1.add(4), p2.add(4), p3.add(4));
+        _mm512_fmadd_ps(fraction, _mm512_sub_ps(b, a), a)
+    }
+}
+
+/// [`Lanes::between`] of any lanes.
+///
+/// # Safety
+/// As of [`Lanes::between`].
+#[inline(always)]
+unsafe fn between_of_all(table: *const [f32; 4], entries: __m512i, fraction: __m512) -> [__m512; 4] {
+    // SAFETY: the caller's promise; the rest touches no memory but its own.
+    unsafe {
+        let mut at = [0i32; 16];
+        _mm512_storeu_epi32(at.as_mut_ptr(), entries);
+        // Of a register's four quarters, the n-th holds the entry of lane 4·n and those behind it.
+        let v0 = mixed(table, [at[0], at[4], at[8], at[12]], _mm512_permute_ps::<0x00>(fraction));
+        let v1 = mixed(table, [at[1], at[5], at[9], at[13]], _mm512_permute_ps::<0x55>(fraction));
+        let v2 = mixed(table, [at[2], at[6], at[10], at[14]], _mm512_permute_ps::<0xAA>(fraction));
+        let v3 = mixed(table, [at[3], at[7], at[11], at[15]], _mm512_permute_ps::<0xFF>(fraction));
+        let (low01, high01) = (_mm512_unpacklo_ps(v0, v1), _mm512_unpackhi_ps(v0, v1));
+        let (low23, high23) = (_mm512_unpacklo_ps(v2, v3), _mm512_unpackhi_ps(v2, v3));
+        [
+            _mm512_shuffle_ps::<0x44>(low01, low23),
+            _mm512_shuffle_ps::<0xEE>(low01, low23),
+            _mm512_shuffle_ps::<0x44>(high01, high23),
+            _mm512_shuffle_ps::<0xEE>(high01, high23),
+        ]
+    }
+}
+
+/// [`Lanes::between`] of four lanes or fewer.
+///
+/// # Safety
+/// As of [`Lanes::between`].
+#[inline(always)]
+unsafe fn between_of_four(
+    table: *const [f32; 4],
+    entries: __m512i,
+    fraction: __m512,
+    asked: __mmask16,
+) -> [__m512; 4] {
+    // SAFETY: the caller's promise, where no lane stands for the first entry; the rest touches no memory but its own.
+    unsafe {
+        let mut at = [0i32; 4];
+        let packed = _mm512_castsi512_si128(_mm512_maskz_compress_epi32(asked, entries));
+        _mm_storeu_si128(at.as_mut_ptr().cast(), packed);
+        let quarters = _mm512_set_epi32(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0);
+        let fraction = _mm512_permutexvar_ps(quarters, _mm512_maskz_compress_ps(asked, fraction));
+        let mixed = mixed(table, at, fraction);
+        // Where each lane's quarter begins.
+        let starts = _mm512_set_epi32(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 12, 8, 4, 0);
+        let start = _mm512_maskz_expand_epi32(asked, starts);
+        [
+            _mm512_permutexvar_ps(start, mixed),
+            _mm512_permutexvar_ps(Avx512::add_i(start, Avx512::splat_i(1)), mixed),
+            _mm512_permutexvar_ps(Avx512::add_i(start, Avx512::splat_i(2)), mixed),
+            _mm512_permutexvar_ps(Avx512::add_i(start, Avx512::splat_i(3)), mixed),
+        ]
     }
 }
 

@@ -104,7 +104,7 @@ impl<'a> Projection for LaneDvr<'a> {
         if !L::any(seen) {
             return seen;
         }
-        let [r, g, b, extinction] = self.look_up.light_and_extinction::<L>(&entry);
+        let [r, g, b, extinction] = self.look_up.light_and_extinction::<L>(&entry, seen);
         let seen = L::both(seen, L::gt(extinction, zero));
         let alpha = opacity::<L>(L::mul(extinction, steps.length_mm));
         let before = gathered.opacity;

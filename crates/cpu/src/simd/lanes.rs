@@ -81,12 +81,18 @@ pub unsafe trait Lanes: Copy {
     /// Each index must lie in the array.
     unsafe fn gather(base: *const f32, indices: Self::I) -> Self::F;
 
-    /// Between each entry and the next, by a fraction: a + t·(b − a) of each of the four columns.
+    /// Between each entry and the next, by a fraction: a + t·(b − a) of each of the four columns. Of lanes that are not
+    /// asked for, what the table has between some entries.
     ///
     /// # Safety
     /// Each entry and the next must lie in the table.
     #[inline(always)]
-    unsafe fn between(table: *const [f32; 4], entries: Self::I, fraction: Self::F) -> [Self::F; 4] {
+    unsafe fn between(
+        table: *const [f32; 4],
+        entries: Self::I,
+        fraction: Self::F,
+        _asked: Self::M,
+    ) -> [Self::F; 4] {
         let mut mixed = [fraction; 4];
         let first = Self::shift_left::<2>(entries);
         for column in 0..4 {

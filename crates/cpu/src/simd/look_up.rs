@@ -52,12 +52,12 @@ impl LaneLookUp {
         L::both(L::gt(entry.at, L::splat(self.shown[0])), L::lt(entry.at, L::splat(self.shown[1])))
     }
 
-    /// Red, green and blue in linear light, and extinction per mm.
+    /// Red, green and blue in linear light, and extinction per mm, of some rays; of the others, those of some other value.
     #[inline(always)]
-    pub fn light_and_extinction<L: Lanes>(&self, entry: &LaneEntry<L>) -> [L::F; 4] {
+    pub fn light_and_extinction<L: Lanes>(&self, entry: &LaneEntry<L>, rays: L::M) -> [L::F; 4] {
         let (floor, fraction) = split::<L>(entry);
         // SAFETY: an entry, and not the last.
-        unsafe { L::between(self.table.as_ptr(), L::to_i(floor), fraction) }
+        unsafe { L::between(self.table.as_ptr(), L::to_i(floor), fraction, rays) }
     }
 }
 
