@@ -1,4 +1,4 @@
-//! Sixteen rays at a time, with AVX-512F.
+//! Sixteen rays at a time, with AVX-512F and POPCNT.
 
 use std::arch::x86_64::*;
 
@@ -264,5 +264,58 @@ unsafe impl RowLanes for Avx512 {
         let some = ((1u32 << row.len().min(16)) - 1) as __mmask16;
         // SAFETY: as above; the load reads no further than the row.
         unsafe { _mm512_permutexvar_ps(places, _mm512_maskz_loadu_ps(some, row.as_ptr())) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TABLE: usize = 40;
+
+    /// [`Lanes::between`] of lanes `asked`, at entry `7 · lane mod 39` and a fraction of a sixteenth more each lane.
+    #[target_feature(enable = "avx512f,popcnt")]
+    fn between(table: &[[f32; 4]; TABLE], asked: u16) -> [[f32; 16]; 4] {
+        let entries: [i32; 16] = std::array::from_fn(|lane| entry(lane) as i32);
+        let fraction: [f32; 16] = std::array::from_fn(fraction);
+        // SAFETY: each entry and the next lie in the table.
+        let columns = unsafe {
+            Avx512::between(table.as_ptr(), Avx512::load_i(&entries), Avx512::load(&fraction), asked)
+        };
+        columns.map(|column| {
+            let mut lanes = [0.0; 16];
+            Avx512::store(column, &mut lanes);
+            lanes
+        })
+    }
+
+    fn entry(lane: usize) -> usize {
+        lane * 7 % (TABLE - 1)
+    }
+
+    fn fraction(lane: usize) -> f32 {
+        lane as f32 / 16.0
+    }
+
+    #[test]
+    fn each_lane_that_is_asked_for_is_between_its_entries() {
+        if !(is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("popcnt")) {
+            eprintln!("skipped: this processor has no AVX-512F");
+            return;
+        }
+        let table: [[f32; 4]; TABLE] =
+            std::array::from_fn(|entry| [1, 3, 5, 7].map(|column| (entry * entry * column) as f32));
+        for asked in [0x0001, 0x8000, 0x0810, 0x1248, 0xF000, 0x8421, 0x001F, 0x5555, 0xFFFF] {
+            // SAFETY: the instructions were just detected.
+            let columns = unsafe { between(&table, asked) };
+            for lane in (0..16).filter(|lane| asked >> lane & 1 == 1) {
+                for column in 0..4 {
+                    let [a, b] = [entry(lane), entry(lane) + 1].map(|entry| table[entry][column]);
+                    // All numbers here are exact.
+                    let expected = a + fraction(lane) * (b - a);
+                    assert_eq!(columns[column][lane], expected, "{asked:x}, lane {lane}, column {column}");
+                }
+            }
+        }
     }
 }

@@ -189,7 +189,7 @@ impl<P: Projection> Vectors<P> {
     ) -> u64 {
         match self.instruction_set {
             #[cfg(target_arch = "x86_64")]
-            // SAFETY: this set is chosen only where AVX-512F was detected.
+            // SAFETY: this set is chosen only where AVX-512F and POPCNT were detected.
             InstructionSet::Avx512 => unsafe { self.add_with_avx512(tile, brick, voxels) },
             #[cfg(target_arch = "x86_64")]
             // SAFETY: this set is chosen only where AVX2 and FMA were detected.
@@ -199,7 +199,7 @@ impl<P: Projection> Vectors<P> {
     }
 
     #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f")]
+    #[target_feature(enable = "avx512f,popcnt")]
     fn add_with_avx512<V: LaneVoxel>(
         &self,
         tile: &mut PacketTile<P::State>,

@@ -35,8 +35,7 @@ pub fn suits(source: &dyn BrickSource, scene: &CpuScene, instruction_set: Instru
     let grid = source.grid(scene.plan.level);
     let can_pick = instruction_set == InstructionSet::Avx512
         && is_x86_feature_detected!("avx512bw")
-        && is_x86_feature_detected!("avx512vl")
-        && is_x86_feature_detected!("popcnt");
+        && is_x86_feature_detected!("avx512vl");
     let is_small = source.desc().stored_type.bytes() <= 2 && grid.layout.edge <= RowBrick::<u8>::LARGEST_EDGE;
     if !(can_pick && is_small && source.can_hold(scene.plan.bricks())) {
         return None;
