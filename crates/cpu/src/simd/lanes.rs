@@ -118,3 +118,49 @@ pub unsafe trait RowLanes: Lanes {
     /// The element at each place of a row of 16 or fewer; anything for places beyond.
     fn pick(row: &[f32], places: Self::I) -> Self::F;
 }
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "x86_64")]
+    use super::super::instruction_set::InstructionSet;
+    use super::super::portable::Portable;
+    use super::*;
+
+    const TABLE: usize = 40;
+
+    /// Looks up entry `7 · lane mod 39` and a sixteenth further each lane, some lanes at a time.
+    fn check_between<L: Lanes>() {
+        let table: [[f32; 4]; TABLE] =
+            std::array::from_fn(|entry| [1, 3, 5, 7].map(|column| (entry * entry * column) as f32));
+        let entries: [usize; 16] = std::array::from_fn(|lane| lane * 7 % (TABLE - 1));
+        let fractions: [f32; 16] = std::array::from_fn(|lane| lane as f32 / 16.0);
+        for asked in [0x0001, 0x8080, 0x0810, 0x1248, 0xF0F0, 0x8421, 0x001F, 0x5555, 0xFFFF] {
+            let at = L::load_i(&entries.map(|entry| entry as i32));
+            // SAFETY: each entry and the next lie in the table.
+            let columns = unsafe { L::between(table.as_ptr(), at, L::load(&fractions), L::mask(asked)) };
+            for (column, &mixed) in columns.iter().enumerate() {
+                let mut lanes = [0.0; 16];
+                L::store(mixed, &mut lanes);
+                for lane in (0..L::COUNT).filter(|lane| asked >> lane & 1 == 1) {
+                    let [a, b] = [entries[lane], entries[lane] + 1].map(|entry| table[entry][column]);
+                    // All numbers here are exact.
+                    let expected = a + fractions[lane] * (b - a);
+                    assert_eq!(lanes[lane], expected, "{asked:x}, lane {lane}, column {column}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn each_lane_that_is_asked_for_is_between_its_entries() {
+        check_between::<Portable>();
+        #[cfg(target_arch = "x86_64")]
+        for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+            match set {
+                InstructionSet::Avx2 => check_between::<super::super::avx2::Avx2>(),
+                InstructionSet::Avx512 => check_between::<super::super::avx512::Avx512>(),
+                InstructionSet::Scalar | InstructionSet::Portable => {}
+            }
+        }
+    }
+}
