@@ -55,6 +55,7 @@ fn passes() -> Vec<(&'static str, Vec<&'static [&'static [&'static str]]>)> {
         ("boxes", vec![&[&[], &["EXTREMUM"]]]),
         ("visible", vec![]),
         ("under", vec![]),
+        ("erase", vec![]),
         ("opaque", vec![]),
         ("filter_probe", vec![]),
     ]

@@ -1,4 +1,4 @@
-#import glassbrick::frame::frame
+#import glassbrick::frame::{frame, frame_uniform}
 #import glassbrick::sliced_brick::brick
 
 // The back faces of a brick's box, for occlusion queries: a box is visible where one of its pixels is not opaque yet, or
@@ -10,6 +10,7 @@ struct Vertex {
 
 @vertex
 fn box_corner(@builtin(vertex_index) index: u32) -> Vertex {
+    frame = frame_uniform;
     // Two triangles for each face, clockwise as seen from outside.
     var corners = array<u32, 36>(
         0u, 2u, 1u, 1u, 2u, 3u,  4u, 5u, 6u, 5u, 7u, 6u,

@@ -1,5 +1,5 @@
 #import glassbrick::full_screen::full_screen_corner
-#import glassbrick::frame::frame
+#import glassbrick::frame::{frame, frame_uniform}
 
 // Finds the pixels whose accumulated opacity has reached the cutoff; the stencil keeps them.
 
@@ -12,6 +12,7 @@ fn opaque_corner(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f 
 
 @fragment
 fn opaque_pixel(@builtin(position) at: vec4f) {
+    frame = frame_uniform;
     if textureLoad(accumulated, vec2u(at.xy), 0).a < frame.opacity_cutoff {
         discard;
     }

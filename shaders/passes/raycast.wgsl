@@ -1,8 +1,8 @@
-#import glassbrick::frame::{frame, PASSES_MISSING}
+#import glassbrick::frame::{frame, frame_uniform, PASSES_MISSING}
 #import glassbrick::rays::{ray_of, first_in_volume}
 #import glassbrick::gathered::RayState
 #import glassbrick::search::{find, MISSING}
-#import glassbrick::samples::add
+#import glassbrick::samples::gather
 
 // One march per pixel through the resident bricks. A ray that meets a brick that is needed and not resident asks for
 // it, keeps what it has gathered, and goes on from there when the pass is run again.
@@ -17,6 +17,7 @@ const RENDERED: u32 = 2u;
 
 @compute @workgroup_size(8, 8)
 fn raycast(@builtin(global_invocation_id) id: vec3u) {
+    frame = frame_uniform;
     let pixel = id.xy + frame.march_min;
     if any(pixel >= frame.march_max) {
         return;
@@ -29,28 +30,29 @@ fn raycast(@builtin(global_invocation_id) id: vec3u) {
     if number == 0u {
         number = first_in_volume(ray);
     }
-    while number < count {
-        let found = find(state, ray, number);
-        number = found.number;
-        if number >= count {
-            break;
-        }
-        let is_missing = found.entry == MISSING;
-        atomicOr(&fates[found.index], select(RENDERED, ASKED_FOR, is_missing));
-        if is_missing {
-            number = found.end;
-            if (frame.flags & PASSES_MISSING) == 0u {
+    if number < count {
+        loop {
+            let found = find(state, ray, number);
+            number = found.number;
+            if number >= count {
                 break;
             }
-            continue;
+            let is_missing = found.entry == MISSING;
+            atomicOr(&fates[found.index], select(RENDERED, ASKED_FOR, is_missing));
+            if is_missing {
+                number = found.end;
+                if (frame.flags & PASSES_MISSING) == 0u {
+                    break;
+                }
+            } else {
+                let reached = gather(&state, found.slot, ray, number, found.end);
+                state.samples += reached.number - number;
+                number = select(reached.number, count, reached.is_done);
+            }
+            if number >= count {
+                break;
+            }
         }
-        var is_done = false;
-        while number < found.end && !is_done {
-            is_done = add(&state, found.slot, ray, number);
-            number += 1u;
-        }
-        state.samples += number - found.number;
-        number = select(number, count, is_done);
     }
     state.next = min(number, count);
     states[place] = state;

@@ -1,5 +1,5 @@
-#import glassbrick::frame::frame
-#import glassbrick::rays::{Ray, ray_of, sample_voxel, is_inside}
+#import glassbrick::frame::{frame, frame_uniform}
+#import glassbrick::rays::{Ray, ray_of, sample_voxel, is_inside, numbers_between}
 #import glassbrick::sliced_brick::brick
 #import glassbrick::atlas::{stored_value, gradient}
 #ifdef DVR
@@ -7,56 +7,52 @@
 #import glassbrick::light::shade
 #endif
 
-// The slices of one brick, farthest first: where a plane of samples cuts the brick's box. The polygon is a conservative
-// proxy; the fragment forms its sample from the pixel and the slice, and is dropped where the brick does not own it.
+// The slices of one brick, in slabs of a few, farthest first. A slab's proxy is the rectangle around the part of the
+// brick's box that its slices cut. The fragment forms its samples from the pixel and the slices' numbers, takes those that
+// the brick owns, farthest first, and is dropped where there are none.
+
+// Slices of a slab. Known to Rust, too.
+const SLAB_SLICES: f32 = 16.0;
 
 struct Vertex {
     @builtin(position) clip: vec4f,
-    @location(0) @interpolate(flat) number: u32,
+    // The nearest slice of the slab and the farthest.
+    @location(0) @interpolate(flat) slices: vec2f,
 }
 
-// Where a path of edges from corner to corner, farther and farther, crosses a slice.
-fn crossing(path: vec4u, slice: f32) -> vec4f {
-    var a = path.x;
-    var b = path.y;
-    if brick.corners[b].z < slice {
-        a = path.y;
-        b = path.z;
-    }
-    if brick.corners[b].z < slice {
-        a = path.z;
-        b = path.w;
-    }
-    return on_edge(a, b, slice);
-}
-
-fn on_edge(a: u32, b: u32, slice: f32) -> vec4f {
+// Where an edge of the box, from a nearer corner to a farther one, crosses a slice, in the picture.
+fn on_edge(a: u32, b: u32, slice: f32) -> vec2f {
     let from_corner = brick.corners[a];
     let to_corner = brick.corners[b];
     let t = clamp((slice - from_corner.z) / max(to_corner.z - from_corner.z, 1e-20), 0.0, 1.0);
-    return mix(from_corner, to_corner, t);
-}
-
-// The corners of the polygon in which a plane cuts a box (Salama and Kolb 2005): three on paths from the nearest corner
-// to the farthest, and between them three on the edges that are left, or else again what is before them.
-fn polygon_corner(corner: u32, slice: f32) -> vec4f {
-    var paths = array<vec4u, 3>(vec4u(0u, 1u, 3u, 7u), vec4u(0u, 4u, 5u, 7u), vec4u(0u, 2u, 6u, 7u));
-    var between = array<vec2u, 3>(vec2u(1u, 5u), vec2u(4u, 6u), vec2u(2u, 3u));
-    let pair = corner / 2u;
-    if corner % 2u == 1u {
-        let edge = between[pair];
-        if brick.corners[edge.x].z < slice && slice < brick.corners[edge.y].z {
-            return on_edge(edge.x, edge.y, slice);
-        }
-    }
-    return crossing(paths[pair], slice);
+    let at = mix(from_corner, to_corner, t);
+    return at.xy / at.w;
 }
 
 @vertex
-fn slice_polygon(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance: u32) -> Vertex {
-    let slice = brick.last_slice - f32(instance);
-    let at = polygon_corner(corner, slice);
-    return Vertex(vec4f(at.xy, 0.0, at.w), u32(slice));
+fn slab_corner(@builtin(vertex_index) corner: u32, @builtin(instance_index) slab: u32) -> Vertex {
+    let last = brick.last_slice - f32(slab) * SLAB_SLICES;
+    let first = max(last - (SLAB_SLICES - 1.0), brick.first_slice);
+    // The corners of what the slab cuts from the box lie on the box's edges.
+    var low = vec2f(1e30);
+    var high = vec2f(-1e30);
+    for (var axis = 1u; axis < 8u; axis *= 2u) {
+        for (var a = 0u; a < 8u; a += 1u) {
+            let b = a | axis;
+            let enters = max(first, brick.corners[a].z);
+            let leaves = min(last, brick.corners[b].z);
+            if a != b && enters <= leaves {
+                let near = on_edge(a, b, enters);
+                let far = on_edge(a, b, leaves);
+                low = min(low, min(near, far));
+                high = max(high, max(near, far));
+            }
+        }
+    }
+    // Two triangles.
+    let is_right = corner == 1u || corner == 2u || corner == 4u;
+    let is_top = corner == 2u || corner == 4u || corner == 5u;
+    return Vertex(vec4f(select(low, high, vec2<bool>(is_right, is_top)), 0.0, 1.0), vec2f(first, last));
 }
 
 struct Fragment {
@@ -66,31 +62,91 @@ struct Fragment {
 #endif
 }
 
-@fragment
-fn slice_sample(vertex: Vertex) -> Fragment {
-    let ray = ray_of(vec2u(vertex.clip.xy) + frame.tile_origin);
-    let at = sample_voxel(ray, vertex.number);
-    if !is_inside(at, brick.owned_low, brick.owned_high) {
-        discard;
-    }
-    let texel = at + brick.texel_from_voxel;
-    let stored = stored_value(0u, texel);
+struct Found {
+    // Whether the brick owns the sample, and with shading, whether it shows anything.
+    counts: bool,
+    texel: vec3f,
+    stored: f32,
 #ifdef DVR
-    let entry = look_up(stored);
-    let opacity = 1.0 - exp(-entry.a * ray.step_length_mm);
-#ifdef SHADED
-    let color = shade(entry.rgb, gradient(0u, texel), ray);
-#else
-    let color = entry.rgb;
+    // Colour and extinction.
+    entry: vec4f,
 #endif
-    return Fragment(vec4f(opacity * color, opacity));
+    // The slice in front of it.
+    next: f32,
+}
+
+// The sample in a slice, if the brick owns it. With shading, which is dear, the farthest up to there that shows something,
+// so that pixels in step shade together. Asks at the loop's end whether to go on: drivers that run pixels in step run a
+// body once more, for none, where it asks at the start.
+fn next_sample(ray: Ray, slice: f32, first: f32) -> Found {
+    var found: Found;
+    found.next = slice;
+    loop {
+        let at = sample_voxel(ray, found.next);
+        found.counts = found.next >= first && is_inside(at, brick.owned_low, brick.owned_high);
+        found.texel = at + brick.texel_from_voxel;
+        found.stored = stored_value(0u, found.texel);
+        found.next -= 1.0;
+#ifdef DVR
+        found.entry = look_up(found.stored);
+#endif
+#ifdef SHADED
+        found.counts = found.counts && found.entry.a > 0.0;
+        if found.counts || found.next < first {
+            break;
+        }
+#else
+        break;
+#endif
+    }
+    return found;
+}
+
+@fragment
+fn slab_samples(vertex: Vertex) -> Fragment {
+    frame = frame_uniform;
+    let ray = ray_of(vec2u(vertex.clip.xy) + frame.tile_origin);
+    let inside = numbers_between(ray, brick.owned_low, brick.owned_high);
+    let first = max(vertex.slices.x, ceil(inside.x));
+    var number = min(vertex.slices.y, floor(inside.y));
+    // DVR: premultiplied colour and opacity. Extremum: x is the best value times the sign. Mean: sum and count.
+    var gathered = vec4f(0.0);
+    var is_empty = true;
+    loop {
+        let found = next_sample(ray, number, first);
+        number = found.next;
+        if found.counts {
+#ifdef DVR
+            let opacity = 1.0 - exp(-found.entry.a * ray.step_length_mm);
+#ifdef SHADED
+            let color = shade(found.entry.rgb, gradient(0u, found.texel), ray);
+#else
+            let color = found.entry.rgb;
+#endif
+            gathered = vec4f(opacity * color, opacity) + (1.0 - opacity) * gathered;
 #else
 #ifdef EXTREMUM
-    // The depth test keeps the best value of all slices.
+            let signed = frame.sign * found.stored;
+            gathered.x = select(max(gathered.x, signed), signed, is_empty);
+#else
+            gathered += vec4f(found.stored, 1.0, 0.0, 0.0);
+#endif
+#endif
+            is_empty = false;
+        }
+        if number < first {
+            break;
+        }
+    }
+    if is_empty {
+        discard;
+    }
+#ifdef EXTREMUM
+    // The depth test keeps the best value of all slabs.
+    let stored = frame.sign * gathered.x;
     return Fragment(vec4f(stored, 0.0, 0.0, 1.0), rank_of(stored));
 #else
-    return Fragment(vec4f(stored, 1.0, 0.0, 0.0));
-#endif
+    return Fragment(gathered);
 #endif
 }
 

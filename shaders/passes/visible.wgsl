@@ -1,10 +1,9 @@
 // Turns the counts of a layer's occlusion queries into its indirect draws: what no pixel saw is not drawn.
 
 struct DrawArgs {
-    index_count: u32,
+    vertex_count: u32,
     instance_count: u32,
-    first_index: u32,
-    base_vertex: i32,
+    first_vertex: u32,
     first_instance: u32,
 }
 

@@ -68,4 +68,7 @@ const PASSES_MISSING: u32 = 1u;
 // Bricks that cannot change a pixel are left out.
 const SKIPS_UNCHANGED: u32 = 2u;
 
-@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(0) var<uniform> frame_uniform: Frame;
+// Its copy, which every entry point makes first: software drivers load a uniform anew, and for each ray apart, wherever
+// it is read.
+var<private> frame: Frame;

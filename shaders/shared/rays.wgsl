@@ -21,30 +21,36 @@ fn ray_of(pixel: vec2u) -> Ray {
 }
 
 // Voxel coordinates of a sample. This value alone decides which brick, cell and fraction the sample has.
-fn sample_voxel(ray: Ray, number: u32) -> vec3f {
-    return ray.start + f32(number) * ray.step;
+fn sample_voxel(ray: Ray, number: f32) -> vec3f {
+    return ray.start + number * ray.step;
 }
 
 fn is_inside(at: vec3f, low: vec3f, high: vec3f) -> bool {
     return all(at >= low) && all(at < high);
 }
 
-// The first sample that lies in the volume; the ray's end where there is none. Estimated from where the ray meets the box,
-// with as much to spare as rounding can be off, then settled by the samples themselves.
-fn first_in_volume(ray: Ray) -> u32 {
+// The numbers between which a ray is in a box, with as much to spare as rounding can be off; the first is above the last
+// where it passes the box by.
+fn numbers_between(ray: Ray, low: vec3f, high: vec3f) -> vec2f {
     let goes_up = ray.step > vec3f(0.0);
-    let near = select(frame.volume_high, frame.volume_low, goes_up);
-    let far = select(frame.volume_low, frame.volume_high, goes_up);
+    let near = select(high, low, goes_up);
+    let far = select(low, high, goes_up);
     let is_still = ray.step == vec3f(0.0);
-    let largest = abs(ray.start) + max(abs(frame.volume_low), abs(frame.volume_high));
+    let largest = abs(ray.start) + max(abs(low), abs(high));
     let slack = largest * 2.5e-7 / abs(ray.step) + 1.0;
     let enter = select((near - ray.start) / ray.step - slack, vec3f(-1e30), is_still);
     let leave = select((far - ray.start) / ray.step + slack, vec3f(1e30), is_still);
-    let count = f32(frame.sample_count);
-    let leaves = clamp(min(leave.x, min(leave.y, leave.z)) + 1.0, 0.0, count);
+    return vec2f(max(enter.x, max(enter.y, enter.z)), min(leave.x, min(leave.y, leave.z)));
+}
+
+// The first sample that lies in the volume; the ray's end where there is none. Estimated from where the ray meets the box,
+// then settled by the samples themselves.
+fn first_in_volume(ray: Ray) -> u32 {
+    let between = numbers_between(ray, frame.volume_low, frame.volume_high);
+    let leaves = clamp(between.y + 1.0, 0.0, f32(frame.sample_count));
     let last = u32(leaves);
-    var first = u32(clamp(max(enter.x, max(enter.y, enter.z)), 0.0, leaves));
-    while first < last && !is_inside(sample_voxel(ray, first), frame.volume_low, frame.volume_high) {
+    var first = u32(clamp(between.x, 0.0, leaves));
+    while first < last && !is_inside(sample_voxel(ray, f32(first)), frame.volume_low, frame.volume_high) {
         first += 1u;
     }
     return select(frame.sample_count, first, first < last);

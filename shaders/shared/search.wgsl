@@ -33,13 +33,14 @@ struct Found {
     end: u32,
 }
 
-// Goes on from a sample to the next one that may count, leaping over bricks that are not planned and over cells and bricks
-// that cannot change the pixel. One loop for all leaps: drivers that run rays in step wait for the slowest.
+// Goes on from a sample of the volume to the next one that may count, leaping over bricks that are not planned and over
+// cells and bricks that cannot change the pixel. One loop for all leaps: drivers that run rays in step wait for the
+// slowest.
 fn find(state: RayState, ray: Ray, first: u32) -> Found {
     var found = Found(first, 0u, NOT_PLANNED, Slot(0u, vec3f(0.0)), first);
     let core = f32(frame.core);
-    while found.number < frame.sample_count {
-        let at = sample_voxel(ray, found.number);
+    loop {
+        let at = sample_voxel(ray, f32(found.number));
         if !is_inside(at, frame.volume_low, frame.volume_high) {
             found.number = frame.sample_count;
             break;
@@ -88,6 +89,9 @@ fn find(state: RayState, ray: Ray, first: u32) -> Found {
             break;
         }
         found.number = found.end;
+        if found.number >= frame.sample_count {
+            break;
+        }
     }
     return found;
 }

@@ -14,7 +14,8 @@ struct SlicedBrick {
     best: f32,
     // Texel of voxel (0, 0, 0).
     texel_from_voxel: vec3f,
-    padding: u32,
+    // The nearest slice.
+    first_slice: f32,
 }
 
 @group(2) @binding(0) var<uniform> brick: SlicedBrick;

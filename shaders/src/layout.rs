@@ -76,8 +76,11 @@ pub struct SlicedBrick {
     pub owned_high: [f32; 3],
     pub best: f32,
     pub texel_from_voxel: [f32; 3],
-    pub padding: u32,
+    pub first_slice: f32,
 }
+
+/// Slices that are drawn together; see `passes/slices.wgsl`.
+pub const SLAB_SLICES: u32 = 16;
 
 /// Which queries are a layer's; see `passes/visible.wgsl`.
 #[repr(C)]
@@ -87,13 +90,12 @@ pub struct QueryRange {
     pub count: u32,
 }
 
-/// An indirect draw of indexed vertices.
+/// An indirect draw.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct DrawArgs {
-    pub index_count: u32,
+    pub vertex_count: u32,
     pub instance_count: u32,
-    pub first_index: u32,
-    pub base_vertex: i32,
+    pub first_vertex: u32,
     pub first_instance: u32,
 }

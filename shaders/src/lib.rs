@@ -6,16 +6,17 @@
 //! | pass | what it does |
 //! | --- | --- |
 //! | `raycast` | one march per pixel through the page table of resident bricks |
-//! | `slices` | the slices of one brick, farthest first |
+//! | `slices` | the slices of one brick in slabs, farthest first |
 //! | `boxes` | the boxes of bricks, for occlusion queries |
 //! | `visible` | turns the queries' counts into indirect draws |
 //! | `under` | puts a layer's image under what lies in front of it |
+//! | `erase` | empties the part of a layer's image that is drawn next |
 //! | `opaque` | finds the pixels that the stencil keeps |
 //! | `filter_probe` | measures how exact a texture unit filters |
 
 mod layout;
 
-pub use layout::{DrawArgs, Frame, QueryRange, RayFan, RayState, SlicedBrick};
+pub use layout::{DrawArgs, Frame, QueryRange, RayFan, RayState, SLAB_SLICES, SlicedBrick};
 
 include!(concat!(env!("OUT_DIR"), "/variants.rs"));
 
@@ -66,6 +67,7 @@ pub enum Pass {
     },
     Visible,
     Under,
+    Erase,
     Opaque,
     FilterProbe,
 }
@@ -79,6 +81,7 @@ impl Pass {
             Self::Boxes { .. } => "boxes",
             Self::Visible => "visible",
             Self::Under => "under",
+            Self::Erase => "erase",
             Self::Opaque => "opaque",
             Self::FilterProbe => "filter_probe",
         }
@@ -97,7 +100,7 @@ pub fn wgsl(pass: Pass) -> &'static str {
             pixels.defined().iter().copied().chain(flag(filters, "FILTERS")).collect()
         }
         Pass::Boxes { ranked } => flag(ranked, "EXTREMUM").into_iter().collect(),
-        Pass::Visible | Pass::Under | Pass::Opaque | Pass::FilterProbe => Vec::new(),
+        Pass::Visible | Pass::Under | Pass::Erase | Pass::Opaque | Pass::FilterProbe => Vec::new(),
     };
     let found = VARIANTS.iter().find(|(name, variant, _)| *name == pass.name() && *variant == defined);
     found.map(|&(_, _, wgsl)| wgsl).expect("the build composes every variant that a pass has")

@@ -1,6 +1,6 @@
 use std::mem::offset_of;
 
-use naga::{Module, TypeInner};
+use naga::{Expression, Literal, Module, TypeInner};
 
 use super::*;
 
@@ -71,13 +71,23 @@ fn structs_lie_in_memory_as_the_shaders_read_them() {
     let slices = &parse(Pass::Slices { pixels: Pixels::Extremum, filters: true });
     lies_as_in_wgsl!(
         slices,
-        SlicedBrick { corners, owned_low, last_slice, owned_high, best, texel_from_voxel, padding }
+        SlicedBrick { corners, owned_low, last_slice, owned_high, best, texel_from_voxel, first_slice }
     );
     let visible = &parse(Pass::Visible);
     lies_as_in_wgsl!(visible, QueryRange { first, count });
-    lies_as_in_wgsl!(
-        visible,
-        DrawArgs { index_count, instance_count, first_index, base_vertex, first_instance }
+    lies_as_in_wgsl!(visible, DrawArgs { vertex_count, instance_count, first_vertex, first_instance });
+}
+
+#[test]
+fn a_slab_has_as_many_slices_in_both_languages() {
+    let slices = parse(Pass::Slices { pixels: Pixels::Mean, filters: true });
+    let is_it = |name: &Option<String>| name.as_deref().is_some_and(|name| name.starts_with("SLAB_SLICES"));
+    let (_, constant) =
+        slices.constants.iter().find(|(_, constant)| is_it(&constant.name)).expect("it is there");
+    let value = &slices.global_expressions[constant.init];
+    assert!(
+        matches!(value, Expression::Literal(Literal::F32(slices)) if *slices == SLAB_SLICES as f32),
+        "{value:?}"
     );
 }
 
@@ -95,7 +105,7 @@ fn every_variant_that_can_be_asked_for_is_there() {
     for ranked in booleans {
         parse(Pass::Boxes { ranked });
     }
-    for pass in [Pass::Visible, Pass::Under, Pass::Opaque, Pass::FilterProbe] {
+    for pass in [Pass::Visible, Pass::Under, Pass::Erase, Pass::Opaque, Pass::FilterProbe] {
         parse(pass);
     }
 }

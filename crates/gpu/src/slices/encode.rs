@@ -3,7 +3,7 @@ use glassbrick_volume::PixelRect;
 use wgpu::{BufferUsages, LoadOp, Operations, StoreOp};
 
 use super::SlicesPass;
-use super::round::{Group, SLICE_INDICES, SliceRound};
+use super::round::{Group, SLAB_CORNERS, SliceRound};
 use crate::bindings::bind;
 use crate::frame_uniform::FrameParts;
 use crate::grown_buffer::GrownBuffer;
@@ -17,7 +17,6 @@ pub struct RoundBuffers {
     ranges: GrownBuffer,
     draws: GrownBuffer,
     counts: GrownBuffer,
-    indices: GrownBuffer,
     queries: wgpu::QuerySet,
 }
 
@@ -48,7 +47,6 @@ impl RoundBuffers {
                 "query counts",
                 BufferUsages::STORAGE | BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC,
             ),
-            indices: GrownBuffer::new("slice indices", BufferUsages::INDEX | copied),
             queries: device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("visible bricks"),
                 ty: wgpu::QueryType::Occlusion,
@@ -147,7 +145,6 @@ impl SlicesPass {
         }
         self.buffers.ranges.write(device, &ranges)?;
         self.buffers.draws.write(device, bytemuck::cast_slice(&round.draws()))?;
-        self.buffers.indices.write(device, bytemuck::cast_slice(&SLICE_INDICES))?;
         self.buffers.counts.grow(device, round.queries() as u64 * RESULT_BYTES)
     }
 
@@ -211,20 +208,22 @@ impl SlicesPass {
         group: &Group,
     ) {
         let style = order.style;
-        let (target, load) = if style.pixels.is_dvr() {
-            (&self.targets().layer, LoadOp::Clear(wgpu::Color::TRANSPARENT))
-        } else {
-            (&self.targets().accumulated, LoadOp::Load)
-        };
-        let has_depth = style.pixels.is_dvr() || style.is_ranked();
+        let is_dvr = style.pixels.is_dvr();
+        let target = if is_dvr { &self.targets().layer } else { &self.targets().accumulated };
+        let has_depth = is_dvr || style.is_ranked();
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("slices"),
-            color_attachments: &[Some(color(target, load))],
+            color_attachments: &[Some(color(target, LoadOp::Load))],
             depth_stencil_attachment: has_depth.then(|| self.kept(style)),
             ..Default::default()
         });
+        if is_dvr {
+            // Software drivers clear whole pictures, pixel by pixel.
+            pass.set_pipeline(&self.pipelines.erase);
+            order.set_scissor(&mut pass, &group.rect);
+            pass.draw(0..3, 0..1);
+        }
         pass.set_pipeline(&bound.slices);
-        pass.set_index_buffer(self.buffers.indices.get().slice(..), wgpu::IndexFormat::Uint16);
         pass.set_bind_group(0, &bound.frame, &[]);
         let mut texture = None;
         for number in group.first..group.first + group.count {
@@ -235,13 +234,13 @@ impl SlicesPass {
             pass.set_bind_group(2, &bound.bricks, &[number as u32 * order.stride]);
             if style.asks {
                 let query = (group.first_query + number - group.first) as u64;
-                pass.draw_indexed_indirect(self.buffers.draws.get(), query * size_of::<DrawArgs>() as u64);
+                pass.draw_indirect(self.buffers.draws.get(), query * size_of::<DrawArgs>() as u64);
             } else {
-                pass.draw_indexed(0..SLICE_INDICES.len() as u32, 0, 0..brick.slices);
+                pass.draw(0..SLAB_CORNERS, 0..brick.slabs());
             }
         }
         drop(pass);
-        if style.pixels.is_dvr() {
+        if is_dvr {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("under"),
                 color_attachments: &[Some(color(&self.targets().accumulated, LoadOp::Load))],

@@ -112,7 +112,7 @@ impl SliceGeometry {
             // Never below the ranks of its samples, for rounding.
             best: (part.best + 4.0 * f32::EPSILON).max(2e-6),
             texel_from_voxel: (texel - core_start).to_array(),
-            padding: 0,
+            first_slice: nearest as f32,
         };
         Some((sliced, (farthest - nearest) as u32 + 1))
     }

@@ -19,6 +19,8 @@ pub struct SlicePipelines {
     pub picture: wgpu::BindGroupLayout,
     pub visible: wgpu::BindGroupLayout,
     pub under: wgpu::RenderPipeline,
+    /// Empties a layer's image where the layer is drawn.
+    pub erase: wgpu::RenderPipeline,
     /// Copies a picture of another format into one that is read back.
     pub copy: wgpu::RenderPipeline,
     pub opaque: wgpu::RenderPipeline,
@@ -58,6 +60,7 @@ impl SlicePipelines {
             None,
             Some(blended(blend_format, BlendFactor::OneMinusDstAlpha, BlendFactor::One)),
         );
+        let erase = full_screen(Pass::Erase, &[], Some(ignores_stencil()), Some(plain(blend_format)));
         let copy = full_screen(Pass::Under, &[Some(&picture_layout)], None, Some(plain(READ_FORMAT)));
         let opaque =
             full_screen(Pass::Opaque, &[Some(&frame), Some(&picture_layout)], Some(sets_stencil()), None);
@@ -68,6 +71,7 @@ impl SlicePipelines {
             picture: picture_layout,
             visible,
             under,
+            erase,
             copy,
             opaque,
         }
@@ -206,6 +210,11 @@ fn blended(format: TextureFormat, src_factor: BlendFactor, dst_factor: BlendFact
 /// Only pixels that are not opaque, whose stencil is 0.
 fn where_not_opaque() -> DepthStencilState {
     with_stencil(CompareFunction::Equal, StencilOperation::Keep, 0)
+}
+
+/// All pixels.
+fn ignores_stencil() -> DepthStencilState {
+    with_stencil(CompareFunction::Always, StencilOperation::Keep, 0)
 }
 
 /// Marks pixels as opaque.

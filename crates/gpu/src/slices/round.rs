@@ -1,4 +1,4 @@
-use glassbrick_shaders::{DrawArgs, SlicedBrick};
+use glassbrick_shaders::{DrawArgs, SLAB_SLICES, SlicedBrick};
 use glassbrick_volume::{PixelRect, PlannedBrick};
 
 /// Queries of a set, at most.
@@ -8,8 +8,8 @@ pub const MOST_QUERIES: usize = 4096;
 /// buffer is a multiple of 256.
 const QUERY_ALIGNMENT: usize = 32;
 
-/// Corners of the fan of triangles that a slice is.
-pub const SLICE_INDICES: [u16; 12] = [0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5];
+/// Corners of the two triangles that are drawn of a slab of slices.
+pub const SLAB_CORNERS: u32 = 6;
 
 /// A brick, or a part of one, that is drawn or asked about.
 #[derive(Clone, Copy)]
@@ -18,6 +18,13 @@ pub struct RoundBrick {
     pub sliced: SlicedBrick,
     pub slices: u32,
     pub texture: u32,
+}
+
+impl RoundBrick {
+    /// Slabs in which its slices are drawn.
+    pub fn slabs(&self) -> u32 {
+        self.slices.div_ceil(SLAB_SLICES)
+    }
 }
 
 /// Bricks whose visibility is found at one time: those of a layer.
@@ -82,15 +89,14 @@ impl SliceRound {
     /// The draws of all bricks by query number, as if each were visible.
     pub fn draws(&self) -> Vec<DrawArgs> {
         let draw = |instance_count| DrawArgs {
-            index_count: SLICE_INDICES.len() as u32,
+            vertex_count: SLAB_CORNERS,
             instance_count,
-            first_index: 0,
-            base_vertex: 0,
+            first_vertex: 0,
             first_instance: 0,
         };
         let mut draws = vec![draw(0); self.queries];
         for (query, brick) in self.query_numbers().zip(&self.bricks) {
-            draws[query] = draw(brick.slices);
+            draws[query] = draw(brick.slabs());
         }
         draws
     }
@@ -117,7 +123,7 @@ mod tests {
         assert_eq!(round.queries(), 32 + 64);
         let draws = round.draws();
         for (query, brick) in round.query_numbers().zip(&round.bricks) {
-            assert_eq!(draws[query].instance_count, brick.slices);
+            assert_eq!(draws[query].instance_count, brick.slabs());
         }
         assert_eq!(draws[3].instance_count, 0, "gaps draw nothing");
     }
