@@ -18,8 +18,8 @@ const RENDERED: u32 = 2u;
 @compute @workgroup_size(8, 8)
 fn raycast(@builtin(global_invocation_id) id: vec3u) {
     frame = frame_uniform;
-    let pixel = id.xy + frame.march_min;
-    if any(pixel >= frame.march_max) {
+    let pixel = id.xy;
+    if any(pixel >= frame.tile_size) {
         return;
     }
     let place = pixel.y * frame.tile_size.x + pixel.x;

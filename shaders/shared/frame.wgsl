@@ -56,9 +56,6 @@ struct Frame {
     // Cells along each axis of a brick, and words of each slot's cells; 0 where no cell is leapt over.
     cell_edge: u32,
     cell_words: u32,
-    // First pixel of the tile that is marched, and one past the last: those outside meet nothing.
-    march_min: vec2u,
-    march_max: vec2u,
     // How rays fan out over the pixels of the picture.
     rays: RayFan,
 }

@@ -33,8 +33,6 @@ pub struct Frame {
     pub rank_from_stored: [f32; 2],
     pub cell_edge: u32,
     pub cell_words: u32,
-    pub march_min: [u32; 2],
-    pub march_max: [u32; 2],
     pub rays: RayFan,
 }
 

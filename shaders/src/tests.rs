@@ -61,8 +61,6 @@ fn structs_lie_in_memory_as_the_shaders_read_them() {
             rank_from_stored,
             cell_edge,
             cell_words,
-            march_min,
-            march_max,
             rays,
         }
     );

@@ -47,12 +47,11 @@ pub fn cell_question(parts: &FrameParts) -> Option<CellQuestion> {
     }
 }
 
-/// What shaders know of a tile of a frame, of which rays march the pixels `march`, counted from the tile's first.
+/// What shaders know of a tile of a frame.
 pub fn frame_uniform(
     parts: &FrameParts,
     CellLayout { cell_edge, cell_words, cell_bytes }: CellLayout,
     tile: &PixelRect,
-    march: &PixelRect,
 ) -> Frame {
     let (scene, level) = (parts.scene, parts.level);
     let (rays, grid, baked) = (scene.rays, &level.grid, scene.transfer_function);
@@ -92,8 +91,6 @@ pub fn frame_uniform(
         rank_from_stored: rank_from_stored(level.stored_range, sign),
         cell_edge,
         cell_words,
-        march_min: march.min,
-        march_max: march.max,
         rays: ray_fan(rays),
     }
 }

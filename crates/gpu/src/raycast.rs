@@ -62,14 +62,16 @@ impl Raycast {
         }
     }
 
-    /// Marches the rays of a tile, and returns what they gathered, row by row. `planned` are the bricks that it can meet, front to back.
+    /// Marches the rays of a tile, and hands on what they gathered, row by row. `planned` are the bricks that it can meet,
+    /// front to back.
     pub fn draw_tile(
         &mut self,
         parts: &FrameParts,
         residents: &mut Residents,
         tile: &PixelRect,
         planned: &[PlannedBrick],
-    ) -> Result<(Vec<RayState>, Taken), GpuError> {
+        use_them: impl FnOnce(&[RayState]),
+    ) -> Result<Taken, GpuError> {
         let FrameParts { device, scene, level, waiting, .. } = *parts;
         let number = scene.plan.level;
         let id = |index: u32| BrickId::new(number, level.grid.brick(index as usize));
@@ -80,10 +82,9 @@ impl Raycast {
         self.make_buffers(parts, bricks, rays)?;
         let fates_read = ReadBack::new(&device.device, bricks as u64 * 4);
         let mut taken = Taken::default();
-        let march = marched(tile, planned);
         let question = cell_question(parts);
         residents.cells.answer(device, &question, residents.set.slots())?;
-        let uniform = frame_uniform(parts, residents.cells.layout(), tile, &march);
+        let uniform = frame_uniform(parts, residents.cells.layout(), tile);
         device.queue.write_buffer(&parts.shared.frame, 0, bytemuck::bytes_of(&uniform));
         let mut is_first = true;
         loop {
@@ -97,7 +98,7 @@ impl Raycast {
                 let offset = (dirty.start * size_of::<[u32; 2]>()) as u64;
                 device.queue.write_buffer(self.page_table.get(), offset, bytemuck::cast_slice(&pages));
             }
-            self.march(parts, residents, &march, &fates_read, is_first);
+            self.march(parts, residents, size, &fates_read, is_first);
             let fates: Vec<u32> = fates_read.read(device, bricks, <[u32]>::to_vec)?;
             let with = |fate: u32| {
                 let fates = &fates;
@@ -140,7 +141,8 @@ impl Raycast {
                 taken.damaged.insert(level.grid.index(brick.place()) as u32, why);
             }
         }
-        Ok((self.read_states(device, rays)?, taken))
+        self.read_states(device, rays, use_them)?;
+        Ok(taken)
     }
 
     fn make_buffers(&mut self, parts: &FrameParts, bricks: usize, rays: usize) -> Result<(), GpuError> {
@@ -157,7 +159,7 @@ impl Raycast {
         &self,
         parts: &FrameParts,
         residents: &Residents,
-        march: &PixelRect,
+        size: [u32; 2],
         fates_read: &ReadBack,
         is_first: bool,
     ) {
@@ -187,25 +189,24 @@ impl Raycast {
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &bindings, &[]);
         pass.set_bind_group(1, &textures, &[]);
-        let groups = [0, 1].map(|axis| (march.max[axis] - march.min[axis]).div_ceil(GROUP_EDGE));
+        let groups = size.map(|pixels| pixels.div_ceil(GROUP_EDGE));
         pass.dispatch_workgroups(groups[0], groups[1], 1);
         drop(pass);
         encoder.copy_buffer_to_buffer(self.fates.get(), 0, fates_read.buffer(), 0, self.fates.used_bytes());
         device.queue.submit([encoder.finish()]);
     }
 
-    fn read_states(&self, device: &GpuDevice, rays: usize) -> Result<Vec<RayState>, GpuError> {
+    fn read_states(
+        &self,
+        device: &GpuDevice,
+        rays: usize,
+        use_them: impl FnOnce(&[RayState]),
+    ) -> Result<(), GpuError> {
         let bytes = self.states.used_bytes();
         let read = ReadBack::new(&device.device, bytes);
         let mut encoder = device.device.create_command_encoder(&Default::default());
         encoder.copy_buffer_to_buffer(self.states.get(), 0, read.buffer(), 0, bytes);
         device.queue.submit([encoder.finish()]);
-        read.read(device, rays, <[RayState]>::to_vec)
+        read.read(device, rays, use_them)
     }
-}
-
-/// The pixels of a tile, counted from its first, that can meet any of the planned bricks.
-fn marched(tile: &PixelRect, planned: &[PlannedBrick]) -> PixelRect {
-    let met = planned.iter().map(|brick| brick.footprint).reduce(PixelRect::union);
-    met.map_or(PixelRect { min: [0; 2], max: [0; 2] }, |rect| rect.in_tile(tile))
 }

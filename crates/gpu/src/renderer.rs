@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glassbrick_volume::{BrickId, BrickRange, BrickSource, Frame, Mode};
+use glassbrick_volume::{BrickId, BrickRange, BrickSource, Frame, Mode, PixelRect};
 
 use crate::atlas_bindings::AtlasBindings;
 use crate::frame_uniform::{FrameParts, Level};
@@ -133,10 +133,13 @@ impl GpuRenderer {
             match pass {
                 GpuPass::Raycast => {
                     let planned = layers.concat();
-                    let (states, more) =
-                        self.raycast.draw_tile(&parts, &mut self.residents, &tile, &planned)?;
-                    finish.rays(&mut frame, &tile, &states);
-                    samples += states.iter().map(|state| u64::from(state.samples)).sum::<u64>();
+                    let met = planned.iter().map(|brick| brick.footprint).reduce(PixelRect::union);
+                    let Some(met) = met.map(|met| met.intersection(tile)) else { continue };
+                    let (raycast, residents) = (&mut self.raycast, &mut self.residents);
+                    let more = raycast.draw_tile(&parts, residents, &met, &planned, |states| {
+                        finish.rays(&mut frame, &met, states);
+                        samples += states.iter().map(|state| u64::from(state.samples)).sum::<u64>();
+                    })?;
                     taken.add(more);
                 }
                 GpuPass::Slices => {

@@ -28,6 +28,14 @@ impl PixelRect {
         }
     }
 
+    /// The pixels that lie in both of two rectangles that overlap.
+    pub fn intersection(self, other: Self) -> Self {
+        Self {
+            min: [0, 1].map(|axis| self.min[axis].max(other.min[axis])),
+            max: [0, 1].map(|axis| self.max[axis].min(other.max[axis])),
+        }
+    }
+
     /// What lies in a tile of the picture, counted from the tile's first pixel.
     pub fn in_tile(&self, tile: &Self) -> Self {
         let counted =
@@ -157,6 +165,7 @@ mod tests {
         let tile = rect([100, 50], [200, 150]);
         let both = rect([90, 70], [120, 80]).union(rect([150, 60], [160, 65]));
         assert_eq!(both.in_tile(&tile), rect([0, 10], [60, 30]));
+        assert_eq!(both.intersection(tile), rect([100, 60], [160, 80]));
         assert!(both.overlaps(&tile) && !both.overlaps(&rect([160, 0], [170, 500])));
     }
 

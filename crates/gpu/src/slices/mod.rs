@@ -78,7 +78,7 @@ impl SlicesPass {
         let size = [tile.max[0] - tile.min[0], tile.max[1] - tile.min[1]];
         self.make_targets(parts.device, size, style)?;
         self.clear(parts.device, style);
-        let uniform = frame_uniform(parts, CellLayout::NONE, tile, tile);
+        let uniform = frame_uniform(parts, CellLayout::NONE, tile);
         parts.device.queue.write_buffer(&parts.shared.frame, 0, bytemuck::bytes_of(&uniform));
         let scene = parts.scene;
         let level_desc = parts.level.desc.level(scene.plan.level).desc;
