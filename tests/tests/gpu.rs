@@ -9,6 +9,7 @@ mod command;
 mod cutoff;
 mod damage;
 mod interactive;
+mod lost;
 mod real_volumes;
 mod reports;
 mod skipping;

@@ -4,6 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use glassbrick_shaders::{Pass, wgsl};
 
 use crate::adapter::{choose, described, is_hardware};
+use crate::error::one_line;
 use crate::filter_probe::filters_exactly;
 use crate::tier::Tier;
 use crate::{AdapterChoice, GpuError};
@@ -53,8 +54,10 @@ impl GpuDevice {
             memory_hints: wgpu::MemoryHints::Performance,
             trace: wgpu::Trace::Off,
         });
-        let (device, queue) = pollster::block_on(request)
-            .map_err(|error| GpuError::NoDevice { adapter: name.clone(), what: error.to_string() })?;
+        let (device, queue) = pollster::block_on(request).map_err(|error| GpuError::NoDevice {
+            adapter: name.clone(),
+            what: one_line(&error.to_string()),
+        })?;
         let trouble = watch(&device);
         let tier = Tier::new(&adapter, &device, |format| filters_exactly(&device, &queue, format));
         Ok(Self { device, queue, tier, adapter: name, trouble, pipelines: Mutex::default() })
@@ -128,7 +131,7 @@ impl GpuDevice {
             match self.device.poll(wgpu::PollType::wait_indefinitely()) {
                 // OpenGL's driver gives up after two seconds; the work goes on.
                 Err(wgpu::PollError::Timeout) => self.check()?,
-                Err(error) => return Err(GpuError::Driver { what: error.to_string() }),
+                Err(error) => return Err(GpuError::driver(&error)),
                 Ok(_) => return self.check(),
             }
         }
@@ -143,6 +146,13 @@ impl GpuDevice {
             Some(what) => Err(GpuError::Lost { what: what.clone() }),
             None => Ok(()),
         }
+    }
+
+    /// What ended a frame: that the device is lost, if it is, whatever was noticed of that first.
+    pub fn lost_or(&self, error: GpuError) -> GpuError {
+        // Only who asks a device is told of its loss.
+        let _ = self.device.poll(wgpu::PollType::Poll);
+        self.check().err().unwrap_or(error)
     }
 
     /// How many errors the driver told of so far.
@@ -184,15 +194,9 @@ fn watch(device: &wgpu::Device) -> Arc<Mutex<Trouble>> {
         trouble.last = Some(one_line(&error.to_string()));
     }));
     let for_loss = Arc::clone(&trouble);
-    device.set_device_lost_callback(move |reason, message| {
-        if reason != wgpu::DeviceLostReason::Destroyed {
-            let mut trouble = for_loss.lock().unwrap_or_else(PoisonError::into_inner);
-            trouble.lost.get_or_insert_with(|| one_line(&message));
-        }
+    device.set_device_lost_callback(move |_, message| {
+        let mut trouble = for_loss.lock().unwrap_or_else(PoisonError::into_inner);
+        trouble.lost.get_or_insert_with(|| one_line(&message));
     });
     trouble
-}
-
-fn one_line(message: &str) -> String {
-    message.split_whitespace().collect::<Vec<_>>().join(" ")
 }

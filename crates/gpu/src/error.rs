@@ -35,3 +35,15 @@ pub enum GpuError {
     #[error("{0}")]
     Residency(#[from] ResidencyError),
 }
+
+impl GpuError {
+    /// What a driver said, of which wgpu makes several lines.
+    pub(crate) fn driver(error: &dyn std::error::Error) -> Self {
+        Self::Driver { what: one_line(&error.to_string()) }
+    }
+}
+
+/// A message without its line breaks.
+pub(crate) fn one_line(message: &str) -> String {
+    message.split_whitespace().collect::<Vec<_>>().join(" ")
+}

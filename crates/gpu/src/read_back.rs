@@ -36,10 +36,7 @@ impl ReadBack {
         let bytes = (count * size_of::<T>()) as u64;
         self.buffer.map_async(wgpu::MapMode::Read, ..bytes, |_| ());
         device.wait()?;
-        let mapped = self
-            .buffer
-            .get_mapped_range(..bytes)
-            .map_err(|error| GpuError::Driver { what: error.to_string() })?;
+        let mapped = self.buffer.get_mapped_range(..bytes).map_err(|error| GpuError::driver(&error))?;
         let result = match bytemuck::try_cast_slice(&mapped) {
             Ok(items) => use_them(items),
             Err(_) => use_them(&bytemuck::pod_collect_to_vec(&mapped)),

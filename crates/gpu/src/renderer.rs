@@ -63,7 +63,7 @@ impl GpuRenderer {
     /// # Errors
     /// When a brick cannot be read, or the device fails.
     pub fn draw(&mut self, scene: &GpuScene) -> Result<GpuFrame, GpuError> {
-        self.draw_waiting(scene, Waiting::Complete)
+        self.draw_waiting(scene, Waiting::Complete).map_err(|error| self.device.lost_or(error))
     }
 
     /// Draws what is resident without waiting for anything, and asks for what is missing: the next frames have it.
@@ -71,6 +71,10 @@ impl GpuRenderer {
     /// # Errors
     /// When the device fails, or a brick could not be read that may not be left out.
     pub fn draw_resident(&mut self, scene: &GpuScene) -> Result<GpuFrame, GpuError> {
+        self.draw_at_once(scene).map_err(|error| self.device.lost_or(error))
+    }
+
+    fn draw_at_once(&mut self, scene: &GpuScene) -> Result<GpuFrame, GpuError> {
         // What the last frame drew is in use: it goes no sooner than what lies idle.
         self.residents.set.begin_frame();
         for (brick, why) in self.residents.take_loaded(&self.device, MOST_UPLOADS)? {

@@ -291,7 +291,7 @@ impl Residents {
         let texture = &self.textures.textures()[place.texture as usize];
         self.staging
             .write(&device.device, encoder, voxels, &self.encoding, texture, place)
-            .map_err(|error| GpuError::Driver { what: error.to_string() })?;
+            .map_err(|error| GpuError::driver(&error))?;
         self.cells.put(slot, voxels.cells());
         self.counts.uploads += 1;
         self.counts.bytes +=

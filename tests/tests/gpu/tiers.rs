@@ -13,11 +13,16 @@ use super::{FEW_SLOTS, Memory, PASSES, draw, scenes_and_truths};
 /// The GPU at hand as if it could do less, or other things.
 fn as_if(change: impl FnOnce(&mut Tier)) -> Option<Gpu> {
     gpu()?;
-    let name = env::var(ADAPTER_VARIABLE).ok().filter(|name| !name.is_empty());
-    let choice = name.as_deref().map_or(AdapterChoice::Best, AdapterChoice::Named);
-    let mut device = GpuDevice::open(choice).expect("it was opened before");
+    let mut device = opened();
     change(&mut device.tier);
     Some(Gpu::from(device))
+}
+
+/// The GPU at hand, opened once more.
+pub fn opened() -> GpuDevice {
+    let name = env::var(ADAPTER_VARIABLE).ok().filter(|name| !name.is_empty());
+    let choice = name.as_deref().map_or(AdapterChoice::Best, AdapterChoice::Named);
+    GpuDevice::open(choice).expect("it was opened before")
 }
 
 /// Draws every scene; `tolerance` tells of a pass and a mode.
