@@ -14,7 +14,6 @@ use crate::kernel::{BrickView, Kernel};
 pub use interval::samples_in_box;
 pub use look_up::LookUp;
 use projector::{Dvr, Extremum, Headlight, Mean, Projector};
-pub use sampler::floor_to_i32;
 use sampler::{Sampler, Voxel};
 
 /// Draws a planned frame with plain code.

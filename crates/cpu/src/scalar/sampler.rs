@@ -78,7 +78,7 @@ impl<V: Voxel> Sampler<'_, V> {
 
 /// ⌊x⌋ of coordinates, which are small.
 #[inline(always)]
-pub fn floor_to_i32(x: f32) -> i32 {
+fn floor_to_i32(x: f32) -> i32 {
     let toward_zero = x as i32;
     toward_zero - i32::from(toward_zero as f32 > x)
 }

@@ -5,6 +5,7 @@
 //! the same steps as where voxels are gathered, so it is the same picture to the bit.
 
 mod bricks;
+mod frame_rows;
 mod march;
 mod rays;
 mod row;
@@ -14,8 +15,7 @@ mod voxels;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use glassbrick_volume::{BrickSource, Frame, ReadError, Skip, StoredType};
-use rayon::prelude::*;
+use glassbrick_volume::{BrickSource, ReadError, Skip, StoredType};
 
 use super::instruction_set::InstructionSet;
 use super::packet::PACKET;
@@ -23,6 +23,7 @@ use super::projection::Projection;
 use crate::executor::{CpuFrame, CpuScene, HeldBrick, Picture};
 use crate::kernel::NO_SAMPLE;
 use bricks::Bricks;
+use frame_rows::draw_rows;
 use march::MOST_ABREAST;
 use rays::RowRays;
 use row::{Row, Span};
@@ -72,24 +73,21 @@ fn draw_voxels<P: Projection, V: RowVoxel>(
     let held: Vec<HeldBrick> = (0..picture.grid.len()).map(|_| OnceLock::new()).collect();
     let bricks = Bricks::<P, V>::new(&picture, &held);
     let columns = columns(scene);
-    let mut frame = Frame::transparent(scene.rays.size.x, scene.rays.size.y);
-    let width = frame.width as usize;
-    let pixels = frame.rgba.par_chunks_mut(width).zip(frame.depth_mm.par_chunks_mut(width));
-    // One by one: some rows take long, and others no time.
-    let rows = pixels.zip(columns).enumerate().with_max_len(1);
-    rows.try_for_each(|(row, ((rgba, depth_mm), columns))| {
+    let frame = draw_rows(scene.rays.size.to_array(), |row, rgba, depth_mm| {
+        let columns = &columns[row];
         if columns.is_empty() {
             return Ok::<(), ReadError>(());
         }
         let ray = rays.rows[row];
         let is_drawn = |line| bricks.line(line).iter().any(Option::is_some);
-        let track = Track::new(&picture.grid, ray, scene.rays.sample_count, is_drawn);
+        // SAFETY: rows are drawn only where these instructions were detected.
+        let track = unsafe { Track::new(&picture.grid, ray, scene.rays.sample_count, is_drawn) };
         let drawn = Row { projection, picture: &picture, bricks: &bricks, rays, track, ray };
-        let mut samples = 0;
+        let (mut state, mut samples) = (projection.start(), 0);
         for first in columns.clone().step_by(PACKET) {
             let span = Span { first, lanes: PACKET.min(columns.end - first) };
             // SAFETY: rows are drawn only where these instructions were detected.
-            let Some((state, evaluated)) = (unsafe { drawn.draw(row as u32, span)? }) else { continue };
+            let Some(evaluated) = (unsafe { drawn.draw(row as u32, span, &mut state)? }) else { continue };
             samples += evaluated;
             for lane in 0..span.lanes {
                 let (pixel, number) = projection.finish(&state, lane);

@@ -29,12 +29,12 @@ pub struct Span {
 }
 
 impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
-    /// What the rays of a span gather, nothing where they meet no brick; and how many samples were evaluated.
+    /// Puts what the rays of a span gather into `state`, unless they meet no brick; how many samples were evaluated.
     ///
     /// # Errors
     /// When a brick cannot be read.
     #[target_feature(enable = "avx512f,avx512bw,avx512vl,popcnt")]
-    pub fn draw(&self, row: u32, span: Span) -> Result<Option<(P::State, u64)>, ReadError> {
+    pub fn draw(&self, row: u32, span: Span, state: &mut P::State) -> Result<Option<u64>, ReadError> {
         let mut packet: Option<RowPacket<P::Gathered<Avx512>>> = None;
         let mut samples = 0;
         let ranked = self.ranked(span);
@@ -75,9 +75,8 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
             }
         }
         Ok(packet.map(|packet| {
-            let mut state = self.projection.start();
-            self.projection.store::<Avx512>(&packet.gathered, &mut state, 0);
-            (state, samples)
+            self.projection.store::<Avx512>(&packet.gathered, state, 0);
+            samples
         }))
     }
 

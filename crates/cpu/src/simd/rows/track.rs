@@ -4,7 +4,7 @@ use glam::{UVec3, Vec3};
 use glassbrick_volume::{BrickGrid, CELL_EDGE_LOG2, Ray};
 
 use super::rays::RowRay;
-use crate::scalar::{floor_to_i32, samples_in_box};
+use crate::scalar::samples_in_box;
 
 /// The way of a picture's row of rays through the volume, seen along x.
 pub struct Track {
@@ -41,10 +41,13 @@ pub struct Step {
     pub row: u32,
     /// The fractions along y and z.
     pub fraction: [f32; 2],
+    /// The row of cells along x.
+    cell_row: u32,
 }
 
 impl Track {
     /// Follows a row of rays through the lines of bricks in which something is to be drawn, by their first brick.
+    #[target_feature(enable = "avx512f,avx512bw,avx512vl")]
     pub fn new(grid: &BrickGrid, ray: RowRay, sample_count: u32, is_drawn: impl Fn(usize) -> bool) -> Self {
         let seen_along_x = Ray {
             start: Vec3::new(0.0, ray.start[0], ray.start[1]),
@@ -85,24 +88,30 @@ impl Track {
         track
     }
 
+    #[target_feature(enable = "avx512f,avx512bw,avx512vl")]
     fn follow(&mut self, grid: &BrickGrid, brick: UVec3, ray: &Ray, numbers: Range<u32>) {
         let halo_start = grid.halo_start(brick);
         let edge = grid.layout.edge;
         let cells = edge.div_ceil(1 << CELL_EDGE_LOG2);
-        let mut run: Option<Run> = None;
-        for number in numbers {
+        let places = [numbers.start, numbers.end].map(|number| (number - self.first) as usize);
+        let steps = &mut self.steps[places[0]..places[1]];
+        // One loop for the positions, which compilers make vectors of, and one for the runs.
+        for (number, step) in (numbers.start..).zip(&mut *steps) {
             let at = ray.sample(number);
-            // Not `floor`, which is a call where the processor is not known.
-            let [floor_y, floor_z] = [at.y, at.z].map(floor_to_i32);
-            let [y, z] = [floor_y - halo_start.y, floor_z - halo_start.z].map(|place| place as u32);
-            self.steps[(number - self.first) as usize] =
-                Step { row: (z * edge + y) * edge, fraction: [at.y - floor_y as f32, at.z - floor_z as f32] };
-            let cell_row = ((z >> CELL_EDGE_LOG2) * cells + (y >> CELL_EDGE_LOG2)) as usize;
-            match &mut run {
-                Some(run) if run.cell_row == cell_row => run.numbers.end = number + 1,
-                _ => self.runs.extend(run.replace(Run { numbers: number..number + 1, cell_row })),
-            }
+            let [floor_y, floor_z] = [at.y.floor(), at.z.floor()];
+            let y = (floor_y as i32 - halo_start.y) as u32;
+            let z = (floor_z as i32 - halo_start.z) as u32;
+            *step = Step {
+                row: (z * edge + y) * edge,
+                fraction: [at.y - floor_y, at.z - floor_z],
+                cell_row: (z >> CELL_EDGE_LOG2) * cells + (y >> CELL_EDGE_LOG2),
+            };
         }
-        self.runs.extend(run);
+        let mut start = numbers.start;
+        for run in steps.chunk_by(|a, b| a.cell_row == b.cell_row) {
+            let end = start + run.len() as u32;
+            self.runs.push(Run { numbers: start..end, cell_row: run[0].cell_row as usize });
+            start = end;
+        }
     }
 }
