@@ -183,9 +183,10 @@ impl GpuRenderer {
     /// bricks at most. Returns how many are pinned.
     ///
     /// # Errors
-    /// When the device has no memory at all.
+    /// When the device has no memory at all, or is lost.
     pub fn pin(&mut self, bricks: &[BrickId]) -> Result<usize, GpuError> {
-        self.residents.reserve(&self.device, 2 * bricks.len())?;
+        let reserved = self.residents.reserve(&self.device, 2 * bricks.len());
+        reserved.map_err(|error| self.device.lost_or(error))?;
         let pinned = self.residents.set.set_pinned(bricks);
         self.residents.ask(&[]);
         Ok(pinned)

@@ -26,9 +26,10 @@ fn a_lost_device_is_said_and_another_draws_on() {
                 renderer.draw(&camera(scene), 1).expect("the device is there");
             }
             lost.destroy();
-            for _ in 0..2 {
-                let drawn = renderer.draw(&camera(scene), 1).map(|_| ());
-                let error = drawn.expect_err("there is no device").to_string();
+            let draw = || renderer.draw(&camera(scene), 1).map(|_| ());
+            let draw_resident = || renderer.draw_resident(&camera(scene)).map(|_| ());
+            for ended in [draw(), draw(), draw_resident()] {
+                let error = ended.expect_err("there is no device").to_string();
                 assert_one_line(&error);
                 assert!(error.contains("lost") && error.contains("--backend cpu"), "{error}");
             }

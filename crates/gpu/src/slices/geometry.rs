@@ -166,6 +166,7 @@ mod tests {
                     let (brick, slices) = drawn[grid.index(owner)].expect("a brick with a sample has slices");
                     let first = brick.last_slice as u32 + 1 - slices;
                     assert!((first..first + slices).contains(&number));
+                    assert_eq!(brick.first_slice as u32, first);
                     let clip = geometry_clip(&geometry, ray.sample(number).as_dvec3());
                     let x = (clip[0] / clip[3] + 1.0) / 2.0 * 17.0 + 3.0 - (f64::from(column) + 0.5);
                     let y = (1.0 - clip[1] / clip[3]) / 2.0 * 13.0 + 2.0 - (f64::from(row) + 0.5);

@@ -3,8 +3,8 @@ use std::mem::MaybeUninit;
 use glassbrick_volume::Frame;
 use rayon::prelude::*;
 
-/// A frame whose rows of pixels and depths are made by the threads that draw them: each is handed out transparent. That
-/// takes a twentieth of the time that one thread needs for all rows first, where frames are drawn in few milliseconds.
+/// A frame whose rows of pixels and depths are made by the threads that draw them: each is handed out transparent. Where one
+/// thread makes all rows first, the others wait for it, a twentieth of the time of a frame of few milliseconds.
 pub fn draw_rows<E: Send>(
     [width, height]: [u32; 2],
     draw_row: impl Fn(usize, &mut [[f32; 4]], &mut [f32]) -> Result<(), E> + Sync,
