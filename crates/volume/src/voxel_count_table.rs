@@ -109,17 +109,18 @@ impl VoxelCountTable {
         let Bins { min, max, whole_numbers } = self.bins;
         let width = self.bins.width();
         let edge = |bin: usize| min + bin as f64 * width;
+        let bins_to = |stored: f64| (stored - min) / width;
         let [before_high, up_to_low] = if whole_numbers {
             // Of whole numbers a bin holds those from its start, rounded up, to its end, rounded up, less one.
             let (last_before_high, first_above_low) = (high.ceil() - 1.0, low.floor() + 1.0);
             [
-                self.voxels_up_to(|bin| edge(bin) <= last_before_high),
-                self.voxels_up_to(|bin| edge(bin + 1) <= first_above_low),
+                self.voxels_up_to(bins_to(last_before_high) + 1.0, |bin| edge(bin) <= last_before_high),
+                self.voxels_up_to(bins_to(first_above_low), |bin| edge(bin + 1) <= first_above_low),
             ]
         } else {
             [
-                self.voxels_up_to(|bin| edge(bin) < high),
-                self.voxels_up_to(|bin| edge(bin + 1).min(max) <= low),
+                self.voxels_up_to(bins_to(high).ceil(), |bin| edge(bin) < high),
+                self.voxels_up_to(bins_to(low), |bin| edge(bin + 1).min(max) <= low),
             ]
         };
         let all = self.voxels();
@@ -130,14 +131,17 @@ impl VoxelCountTable {
         BandFractions { r1: fraction(not_above), r2: fraction(below) }
     }
 
-    /// Voxels up to the last bin for which `is_before` is true: it is for all bins before one for which it is.
-    fn voxels_up_to(&self, is_before: impl Fn(usize) -> bool) -> u32 {
-        // Halving by powers of two has no branch that could be guessed wrongly, so that tables are fetched side by side.
-        let mut before = 0;
-        for step in [128, 64, 32, 16, 8, 4, 2, 1, 1] {
-            before += if is_before(before + step - 1) { step } else { 0 };
+    /// Voxels up to the last bin for which `is_before` is true: it is for all bins before one for which it is. They are about
+    /// so many bins; the estimate, which rounding makes wrong by one at most, is put right.
+    fn voxels_up_to(&self, estimate: f64, is_before: impl Fn(usize) -> bool) -> u32 {
+        let mut bins = (estimate as usize).min(VCT_BINS);
+        while bins < VCT_BINS && is_before(bins) {
+            bins += 1;
         }
-        if before == 0 { 0 } else { self.cumulative[before - 1] }
+        while bins > 0 && !is_before(bins - 1) {
+            bins -= 1;
+        }
+        if bins == 0 { 0 } else { self.cumulative[bins - 1] }
     }
 }
 
