@@ -65,7 +65,9 @@ fn volume(stored_type: StoredType, edge: u32) -> FlatSource {
                     StoredType::I8 => bytes.push((part * 255.0 - 128.0) as i8 as u8),
                     StoredType::U16 => bytes.extend(((part * 65_535.0) as u16).to_ne_bytes()),
                     StoredType::I16 => bytes.extend(((part * 65_535.0 - 32_768.0) as i16).to_ne_bytes()),
-                    other => unreachable!("{other} is not drawn along rows"),
+                    StoredType::I32 => bytes.extend(((part * 2e6 - 1e6) as i32).to_ne_bytes()),
+                    StoredType::F32 => bytes.extend((part * 3.0 - 0.7).to_ne_bytes()),
+                    other => unreachable!("{other} is read as one of the others"),
                 }
             }
         }
@@ -134,9 +136,14 @@ fn settings() -> Vec<RenderSettings> {
 
 #[test]
 fn rows_are_what_is_gathered() {
-    for (stored_type, edge) in
-        [(StoredType::U8, 64), (StoredType::I8, 24), (StoredType::U16, 32), (StoredType::I16, 64)]
-    {
+    for (stored_type, edge) in [
+        (StoredType::U8, 64),
+        (StoredType::I8, 24),
+        (StoredType::U16, 32),
+        (StoredType::I16, 64),
+        (StoredType::F32, 64),
+        (StoredType::I32, 40),
+    ] {
         let source = volume(stored_type, edge);
         let tf = transfer_function(&source);
         let views = [NamedView::Front, NamedView::Back, NamedView::Top, NamedView::Bottom];

@@ -8,6 +8,7 @@ mod bricks;
 mod frame_rows;
 mod march;
 mod rays;
+mod registers;
 mod row;
 mod track;
 mod voxels;
@@ -30,15 +31,15 @@ use row::{Row, Span};
 use track::Track;
 use voxels::{RowBrick, RowVoxel};
 
-/// The rays of a frame if it is best drawn along rows: nothing where they do not go so, where voxels are too large or
-/// bricks too long for it, where memory does not hold all bricks, or this processor lacks the instructions.
+/// The rays of a frame if it is best drawn along rows: nothing where they do not go so, where bricks are too
+/// long for it, where memory does not hold all bricks, or this processor lacks the instructions.
 pub fn suits(source: &dyn BrickSource, scene: &CpuScene, instruction_set: InstructionSet) -> Option<RowRays> {
     let grid = source.grid(scene.plan.level);
     let can_pick = instruction_set == InstructionSet::Avx512
         && is_x86_feature_detected!("avx512bw")
         && is_x86_feature_detected!("avx512vl");
-    let is_small = source.desc().stored_type.bytes() <= 2 && grid.layout.edge <= RowBrick::<u8>::LARGEST_EDGE;
-    if !(can_pick && is_small && source.can_hold(scene.plan.bricks())) {
+    let fits = grid.layout.edge <= RowBrick::<f32>::LARGEST_EDGE;
+    if !(can_pick && fits && source.can_hold(scene.plan.bricks())) {
         return None;
     }
     let rays = RowRays::new(scene.rays, PACKET)?;
@@ -59,7 +60,9 @@ pub fn draw<P: Projection>(
         StoredType::I8 => draw_voxels::<P, i8>(projection, source, scene, rays),
         StoredType::U16 => draw_voxels::<P, u16>(projection, source, scene, rays),
         StoredType::I16 => draw_voxels::<P, i16>(projection, source, scene, rays),
-        other => unreachable!("voxels of type {other} do not fit"),
+        StoredType::U32 | StoredType::I32 | StoredType::F32 | StoredType::F64 => {
+            draw_voxels::<P, f32>(projection, source, scene, rays)
+        }
     }
 }
 

@@ -7,6 +7,7 @@ use super::super::avx512::Avx512;
 use super::super::brick::lerp;
 use super::super::lanes::Lanes;
 use super::super::voxel::LaneVoxel;
+use super::registers::{Floats, Registers, Words};
 use super::track::Step;
 use crate::kernel::BrickView;
 
@@ -14,26 +15,31 @@ type F = <Avx512 as Lanes>::F;
 type I = <Avx512 as Lanes>::I;
 type M = <Avx512 as Lanes>::M;
 
-/// Voxels of 8 or 16 bits, of which a brick's row fits into two registers.
+/// Voxels of which a brick's row fits into registers.
 pub trait RowVoxel: LaneVoxel {
+    type Registers: Registers;
+
     /// Those of a brick that has such voxels.
     fn of(voxels: &Voxels) -> Option<&[Self]>;
 
-    /// Reads the first `edge` (≤ 64) voxels as words.
+    /// Reads the first voxels: those whose bits are set.
     ///
     /// # Safety
     /// They must lie there, and AVX-512BW and VL be at hand.
-    unsafe fn row(voxels: *const Self, edge: u64) -> [I; 2];
+    unsafe fn row(voxels: *const Self, in_row: u64) -> Self::Registers;
 
-    /// The lower word of each pair as a number, up to a power of two.
-    fn low(pairs: I) -> F;
+    /// The first of each pair as a number, up to a power of two.
+    fn low(pairs: Pairs<Self>) -> F;
 
-    /// The upper word, likewise.
-    fn high(pairs: I) -> F;
+    /// The second, likewise.
+    fn high(pairs: Pairs<Self>) -> F;
 
     /// Takes that power of two back.
     fn to_scale(x: F) -> F;
 }
+
+/// Voxels and the next ones.
+type Pairs<V> = <<V as RowVoxel>::Registers as Registers>::Pairs;
 
 /// A brick as rays along its rows see it.
 pub struct RowBrick<'a, V> {
@@ -56,9 +62,9 @@ pub struct Place {
 }
 
 /// Rows of voxels, of which pairs of neighbours are picked.
-pub trait Rows {
+pub trait Rows<V: RowVoxel> {
     /// The voxels at and behind each sample's place along x and `x` more, in the row `y` and `z` aside.
-    fn pairs(&self, place: &Place, x: i32, y: isize, z: isize) -> I;
+    fn pairs(&self, place: &Place, x: i32, y: isize, z: isize) -> Pairs<V>;
 }
 
 /// All samples lie in one brick.
@@ -77,20 +83,20 @@ pub struct SideBySide<'a, V, const N: usize> {
     pub at: [I; N],
 }
 
-impl<V: RowVoxel> Rows for Single<'_, V> {
+impl<V: RowVoxel> Rows<V> for Single<'_, V> {
     #[inline(always)]
-    fn pairs(&self, place: &Place, x: i32, y: isize, z: isize) -> I {
-        pick(self.brick.row(place.row, y, z), pick_of(self.at, x))
+    fn pairs(&self, place: &Place, x: i32, y: isize, z: isize) -> Pairs<V> {
+        self.brick.row(place.row, y, z).pairs(self.at, x)
     }
 }
 
-impl<V: RowVoxel, const N: usize> Rows for SideBySide<'_, V, N> {
+impl<V: RowVoxel, const N: usize> Rows<V> for SideBySide<'_, V, N> {
     #[inline(always)]
-    fn pairs(&self, place: &Place, x: i32, y: isize, z: isize) -> I {
-        let mut pairs = pick(self.bricks[0].row(place.row, y, z), pick_of(self.at[0], x));
+    fn pairs(&self, place: &Place, x: i32, y: isize, z: isize) -> Pairs<V> {
+        let mut pairs = self.bricks[0].row(place.row, y, z).pairs(self.at[0], x);
         for brick in 1..N {
-            let other = pick(self.bricks[brick].row(place.row, y, z), pick_of(self.at[brick], x));
-            pairs = Avx512::select_i(self.rays[brick], other, pairs);
+            let other = self.bricks[brick].row(place.row, y, z).pairs(self.at[brick], x);
+            pairs = V::Registers::select(self.rays[brick], other, pairs);
         }
         pairs
     }
@@ -98,6 +104,9 @@ impl<V: RowVoxel, const N: usize> Rows for SideBySide<'_, V, N> {
 
 impl<'a, V: RowVoxel> RowBrick<'a, V> {
     pub const LARGEST_EDGE: u32 = 64;
+
+    /// Lines of the caches that a row takes up, more or less.
+    const LINES: usize = if size_of::<V>() > 2 { size_of::<V>() } else { 2 };
 
     pub fn new(view: &BrickView<'a>, voxels: &'a [V]) -> Self {
         let edge = view.brick.edge;
@@ -127,14 +136,15 @@ impl<'a, V: RowVoxel> RowBrick<'a, V> {
             let start = self.voxels.as_ptr().wrapping_add((step.row + (z * edge + y) * edge) as usize);
             // SAFETY: a prefetch reads nothing.
             unsafe {
-                _mm_prefetch::<_MM_HINT_T0>(start.cast());
-                _mm_prefetch::<_MM_HINT_T0>(start.cast::<i8>().wrapping_add(64));
+                for line in 0..Self::LINES {
+                    _mm_prefetch::<_MM_HINT_T0>(start.cast::<i8>().wrapping_add(line * 64));
+                }
             }
         }
     }
 
     #[inline(always)]
-    fn row(&self, row: u32, y: isize, z: isize) -> [I; 2] {
+    fn row(&self, row: u32, y: isize, z: isize) -> V::Registers {
         let edge = self.edge as isize;
         let start = row as isize + (z * edge + y) * edge;
         debug_assert!(start >= 0 && (start + edge) as usize <= self.voxels.len());
@@ -146,7 +156,7 @@ impl<'a, V: RowVoxel> RowBrick<'a, V> {
 
 /// The stored value at each sample: the same steps as where voxels are gathered.
 #[inline(always)]
-pub fn value<V: RowVoxel>(rows: &impl Rows, place: &Place) -> F {
+pub fn value<V: RowVoxel>(rows: &impl Rows<V>, place: &Place) -> F {
     let [_, fy, fz] = place.fraction;
     let lower = lerp::<Avx512>(along_x::<V>(rows, place, 0, 0), along_x::<V>(rows, place, 1, 0), fy);
     let upper = lerp::<Avx512>(along_x::<V>(rows, place, 0, 1), along_x::<V>(rows, place, 1, 1), fy);
@@ -155,7 +165,7 @@ pub fn value<V: RowVoxel>(rows: &impl Rows, place: &Place) -> F {
 
 /// The change of the stored value per voxel along each axis, up to a factor.
 #[inline(always)]
-pub fn gradient<V: RowVoxel>(rows: &impl Rows, place: &Place) -> [F; 3] {
+pub fn gradient<V: RowVoxel>(rows: &impl Rows<V>, place: &Place) -> [F; 3] {
     let [_, fy, fz] = place.fraction;
     let x0 =
         lerp::<Avx512>(change_along_x::<V>(rows, place, 0, 0), change_along_x::<V>(rows, place, 1, 0), fy);
@@ -177,43 +187,30 @@ pub fn gradient<V: RowVoxel>(rows: &impl Rows, place: &Place) -> [F; 3] {
 
 /// The value in the row that lies `y` and `z` aside, to the voxel's scale.
 #[inline(always)]
-fn along_x<V: RowVoxel>(rows: &impl Rows, place: &Place, y: isize, z: isize) -> F {
+fn along_x<V: RowVoxel>(rows: &impl Rows<V>, place: &Place, y: isize, z: isize) -> F {
     let pairs = rows.pairs(place, 0, y, z);
     lerp::<Avx512>(V::low(pairs), V::high(pairs), place.fraction[0])
 }
 
 /// Twice the change along x in the row that lies `y` and `z` aside, to the voxel's scale.
 #[inline(always)]
-fn change_along_x<V: RowVoxel>(rows: &impl Rows, place: &Place, y: isize, z: isize) -> F {
+fn change_along_x<V: RowVoxel>(rows: &impl Rows<V>, place: &Place, y: isize, z: isize) -> F {
     let (before, behind) = (rows.pairs(place, -1, y, z), rows.pairs(place, 1, y, z));
     let first = Avx512::sub(V::low(behind), V::low(before));
     lerp::<Avx512>(first, Avx512::sub(V::high(behind), V::high(before)), place.fraction[0])
 }
 
-/// The places of pairs of words, each behind the other, `aside` from some.
-#[inline(always)]
-fn pick_of(x: I, aside: i32) -> I {
-    // SAFETY: used only where AVX-512F was detected.
-    let both = unsafe { _mm512_or_si512(x, _mm512_slli_epi32::<16>(x)) };
-    // Of places that are negative nothing is asked for.
-    Avx512::add_i(both, Avx512::splat_i((1 << 16) + aside * 0x1_0001))
-}
-
-#[inline(always)]
-fn pick([first, second]: [I; 2], places: I) -> I {
-    // SAFETY: used only where AVX-512BW was detected.
-    unsafe { _mm512_permutex2var_epi16(first, places, second) }
-}
-
 impl RowVoxel for u16 {
+    type Registers = Words;
+
     fn of(voxels: &Voxels) -> Option<&[Self]> {
         if let Voxels::U16(voxels) = voxels { Some(voxels) } else { None }
     }
 
     #[inline(always)]
-    unsafe fn row(voxels: *const Self, edge: u64) -> [I; 2] {
+    unsafe fn row(voxels: *const Self, in_row: u64) -> Words {
         // SAFETY: the caller's promise; nothing is read where the mask is not set.
-        unsafe { masked_words(voxels.cast(), edge) }
+        unsafe { masked_words(voxels.cast(), in_row) }
     }
 
     #[inline(always)]
@@ -234,14 +231,16 @@ impl RowVoxel for u16 {
 }
 
 impl RowVoxel for i16 {
+    type Registers = Words;
+
     fn of(voxels: &Voxels) -> Option<&[Self]> {
         if let Voxels::I16(voxels) = voxels { Some(voxels) } else { None }
     }
 
     #[inline(always)]
-    unsafe fn row(voxels: *const Self, edge: u64) -> [I; 2] {
+    unsafe fn row(voxels: *const Self, in_row: u64) -> Words {
         // SAFETY: the caller's promise; nothing is read where the mask is not set.
-        unsafe { masked_words(voxels, edge) }
+        unsafe { masked_words(voxels, in_row) }
     }
 
     #[inline(always)]
@@ -262,19 +261,21 @@ impl RowVoxel for i16 {
 }
 
 impl RowVoxel for u8 {
+    type Registers = Words;
+
     fn of(voxels: &Voxels) -> Option<&[Self]> {
         if let Voxels::U8(voxels) = voxels { Some(voxels) } else { None }
     }
 
     #[inline(always)]
-    unsafe fn row(voxels: *const Self, edge: u64) -> [I; 2] {
+    unsafe fn row(voxels: *const Self, in_row: u64) -> Words {
         // SAFETY: the caller's promise; nothing is read where the mask is not set.
         unsafe {
-            let row = _mm512_maskz_loadu_epi8(edge, voxels.cast());
-            [
+            let row = _mm512_maskz_loadu_epi8(in_row, voxels.cast());
+            Words([
                 _mm512_cvtepu8_epi16(_mm512_castsi512_si256(row)),
                 _mm512_cvtepu8_epi16(_mm512_extracti64x4_epi64::<1>(row)),
-            ]
+            ])
         }
     }
 
@@ -295,19 +296,21 @@ impl RowVoxel for u8 {
 }
 
 impl RowVoxel for i8 {
+    type Registers = Words;
+
     fn of(voxels: &Voxels) -> Option<&[Self]> {
         if let Voxels::I8(voxels) = voxels { Some(voxels) } else { None }
     }
 
     #[inline(always)]
-    unsafe fn row(voxels: *const Self, edge: u64) -> [I; 2] {
+    unsafe fn row(voxels: *const Self, in_row: u64) -> Words {
         // SAFETY: the caller's promise; nothing is read where the mask is not set.
         unsafe {
-            let row = _mm512_maskz_loadu_epi8(edge, voxels);
-            [
+            let row = _mm512_maskz_loadu_epi8(in_row, voxels);
+            Words([
                 _mm512_cvtepi8_epi16(_mm512_castsi512_si256(row)),
                 _mm512_cvtepi8_epi16(_mm512_extracti64x4_epi64::<1>(row)),
-            ]
+            ])
         }
     }
 
@@ -327,15 +330,51 @@ impl RowVoxel for i8 {
     }
 }
 
+impl RowVoxel for f32 {
+    type Registers = Floats;
+
+    fn of(voxels: &Voxels) -> Option<&[Self]> {
+        if let Voxels::F32(voxels) = voxels { Some(voxels) } else { None }
+    }
+
+    #[inline(always)]
+    unsafe fn row(voxels: *const Self, in_row: u64) -> Floats {
+        // SAFETY: the caller's promise; nothing is read where the mask is not set.
+        unsafe {
+            Floats([
+                _mm512_maskz_loadu_ps(in_row as u16, voxels),
+                _mm512_maskz_loadu_ps((in_row >> 16) as u16, voxels.wrapping_add(16)),
+                _mm512_maskz_loadu_ps((in_row >> 32) as u16, voxels.wrapping_add(32)),
+                _mm512_maskz_loadu_ps((in_row >> 48) as u16, voxels.wrapping_add(48)),
+            ])
+        }
+    }
+
+    #[inline(always)]
+    fn low([low, _]: [F; 2]) -> F {
+        low
+    }
+
+    #[inline(always)]
+    fn high([_, high]: [F; 2]) -> F {
+        high
+    }
+
+    #[inline(always)]
+    fn to_scale(x: F) -> F {
+        x
+    }
+}
+
 /// # Safety
 /// As of [`RowVoxel::row`].
 #[inline(always)]
-unsafe fn masked_words(words: *const i16, edge: u64) -> [I; 2] {
+unsafe fn masked_words(words: *const i16, in_row: u64) -> Words {
     // SAFETY: the caller's promise; nothing is read where the mask is not set.
     unsafe {
-        [
-            _mm512_maskz_loadu_epi16(edge as u32, words),
-            _mm512_maskz_loadu_epi16((edge >> 32) as u32, words.wrapping_add(32)),
-        ]
+        Words([
+            _mm512_maskz_loadu_epi16(in_row as u32, words),
+            _mm512_maskz_loadu_epi16((in_row >> 32) as u32, words.wrapping_add(32)),
+        ])
     }
 }
