@@ -57,6 +57,7 @@ impl Projection for LaneExtremum<'_> {
     type Cells = Option<Vec<f32>>;
 
     const LOOKS_AHEAD: bool = false;
+    const IN_ANY_ORDER: bool = true;
 
     fn start(&self) -> ExtremumState {
         ExtremumState { signed: [f32::NEG_INFINITY; PACKET], number: [f32::INFINITY; PACKET] }

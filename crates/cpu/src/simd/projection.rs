@@ -20,6 +20,9 @@ pub trait Projection: Sync {
     /// Whether, where rays go along rows, it pays to look at a run's cells before its samples: where that takes a bit each.
     const LOOKS_AHEAD: bool;
 
+    /// Whether samples may come in any order, and those that decide a pixel lie where they do in its neighbour.
+    const IN_ANY_ORDER: bool;
+
     fn start(&self) -> Self::State;
 
     /// The rays that samples with stored values in [min, max] cannot change, by bit.

@@ -3,19 +3,21 @@ use std::mem::MaybeUninit;
 use glassbrick_volume::Frame;
 use rayon::prelude::*;
 
-/// A frame whose rows of pixels and depths are made by the threads that draw them: each is handed out transparent. Where one
+/// A frame whose rows of pixels and depths are made by the threads that draw them: so many `together`, as one slice, and the
+/// number of the first, are handed out transparent. Where one
 /// thread makes all rows first, the others wait for it, a twentieth of the time of a frame of few milliseconds.
 pub fn draw_rows<E: Send>(
     [width, height]: [u32; 2],
-    draw_row: impl Fn(usize, &mut [[f32; 4]], &mut [f32]) -> Result<(), E> + Sync,
+    together: usize,
+    draw: impl Fn(usize, &mut [[f32; 4]], &mut [f32]) -> Result<(), E> + Sync,
 ) -> Result<Frame, E> {
     let pixels = width as usize * height as usize;
     let (mut rgba, mut depth_mm) = (Vec::with_capacity(pixels), Vec::with_capacity(pixels));
-    let colors = rgba.spare_capacity_mut()[..pixels].par_chunks_exact_mut(width as usize);
-    let depths = depth_mm.spare_capacity_mut()[..pixels].par_chunks_exact_mut(width as usize);
+    let colors = rgba.spare_capacity_mut()[..pixels].par_chunks_mut(together * width as usize);
+    let depths = depth_mm.spare_capacity_mut()[..pixels].par_chunks_mut(together * width as usize);
     // One by one: some rows take long, and others no time.
-    colors.zip(depths).enumerate().with_max_len(1).try_for_each(|(row, (colors, depths))| {
-        draw_row(row, filled(colors, [0.0; 4]), filled(depths, f32::INFINITY))
+    colors.zip(depths).enumerate().with_max_len(1).try_for_each(|(place, (colors, depths))| {
+        draw(place * together, filled(colors, [0.0; 4]), filled(depths, f32::INFINITY))
     })?;
     // SAFETY: rows have no pixel left over, and every one of them was filled.
     unsafe {
@@ -39,7 +41,7 @@ mod tests {
 
     #[test]
     fn rows_are_transparent_but_for_what_is_drawn() {
-        let frame = draw_rows([3, 2], |row, rgba, depth_mm| {
+        let frame = draw_rows([3, 2], 1, |row, rgba, depth_mm| {
             (rgba[row], depth_mm[row]) = ([1.0; 4], 7.0);
             Ok::<(), ()>(())
         });
@@ -51,7 +53,24 @@ mod tests {
     }
 
     #[test]
+    fn rows_that_are_drawn_together_lie_one_behind_the_other() {
+        let frame = draw_rows([2, 5], 2, |first, rgba, depth_mm| {
+            for (row, depths) in (first..).zip(depth_mm.chunks_mut(2)) {
+                depths.fill(row as f32);
+            }
+            assert_eq!(rgba.len(), depth_mm.len());
+            Ok::<(), ()>(())
+        });
+        let depths = frame.expect("no row fails").depth_mm;
+        assert_eq!(
+            depths,
+            [0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0],
+            "the last has no other with it"
+        );
+    }
+
+    #[test]
     fn a_row_that_fails_leaves_no_frame() {
-        assert_eq!(draw_rows([3, 9], |row, _, _| if row == 4 { Err(row) } else { Ok(()) }).err(), Some(4));
+        assert_eq!(draw_rows([3, 9], 1, |row, _, _| if row == 4 { Err(row) } else { Ok(()) }).err(), Some(4));
     }
 }

@@ -28,8 +28,11 @@ use frame_rows::draw_rows;
 use march::MOST_ABREAST;
 use rays::RowRays;
 use row::{Row, Span};
-use track::Track;
+use track::{Section, Track};
 use voxels::{RowBrick, RowVoxel};
+
+/// Rows of a picture that one thread draws one after the other, where each tells something of the next.
+const ROWS_TOGETHER: usize = 8;
 
 /// The rays of a frame if it is best drawn along rows: nothing where they do not go so, where bricks are too
 /// long for it, where memory does not hold all bricks, or this processor lacks the instructions.
@@ -76,38 +79,84 @@ fn draw_voxels<P: Projection, V: RowVoxel>(
     let held: Vec<HeldBrick> = (0..picture.grid.len()).map(|_| OnceLock::new()).collect();
     let bricks = Bricks::<P, V>::new(&picture, &held);
     let columns = columns(scene);
-    let frame = draw_rows(scene.rays.size.to_array(), |row, rgba, depth_mm| {
-        let columns = &columns[row];
-        if columns.is_empty() {
-            return Ok::<(), ReadError>(());
+    let width = scene.rays.size.x as usize;
+    let rows = Rows { projection, picture: &picture, bricks: &bricks, rays };
+    let together = if P::IN_ANY_ORDER { ROWS_TOGETHER } else { 1 };
+    let frame = draw_rows(scene.rays.size.to_array(), together, |first, rgba, depth_mm| {
+        let mut numbers = vec![NO_SAMPLE; width];
+        let pixels = rgba.chunks_exact_mut(width).zip(depth_mm.chunks_exact_mut(width));
+        for (row, (rgba, depth_mm)) in (first..).zip(pixels) {
+            rows.draw(row, columns[row].clone(), rgba, depth_mm, &mut numbers)?;
         }
-        let ray = rays.rows[row];
-        let is_drawn = |line| bricks.line(line).iter().any(Option::is_some);
-        // SAFETY: rows are drawn only where these instructions were detected.
-        let track = unsafe { Track::new(&picture.grid, ray, scene.rays.sample_count, is_drawn) };
-        let drawn = Row { projection, picture: &picture, bricks: &bricks, rays, track, ray };
-        let (mut state, mut samples) = (projection.start(), 0);
-        for first in columns.clone().step_by(PACKET) {
-            let span = Span { first, lanes: PACKET.min(columns.end - first) };
-            // SAFETY: rows are drawn only where these instructions were detected.
-            let Some(evaluated) = (unsafe { drawn.draw(row as u32, span, &mut state)? }) else { continue };
-            samples += evaluated;
-            for lane in 0..span.lanes {
-                let (pixel, number) = projection.finish(&state, lane);
-                rgba[first + lane] = pixel;
-                if number != NO_SAMPLE {
-                    depth_mm[first + lane] = scene.rays.depth_mm(number) as f32;
-                }
-            }
-        }
-        picture.add_samples(samples);
-        Ok(())
+        Ok::<(), ReadError>(())
     })?;
     drop(bricks);
     let loaded = held.iter().filter(|brick| brick.get().is_some()).count();
     // Where hidden bricks are not to be skipped, none counts as hidden.
     let loaded = if scene.settings.skip == Skip::All { loaded } else { scene.plan.bricks() };
     Ok(picture.finish(frame, loaded))
+}
+
+/// What the rows of a frame have in common.
+struct Rows<'r, 'a, P: Projection, V> {
+    projection: &'r P,
+    picture: &'r Picture<'a>,
+    bricks: &'r Bricks<'a, P, V>,
+    rays: &'r RowRays,
+}
+
+impl<P: Projection, V: RowVoxel> Rows<'_, '_, P, V> {
+    /// Draws some columns of a row. `numbers` has the sample that each pixel of the row above was taken from, and gets those of
+    /// this row.
+    fn draw(
+        &self,
+        row: usize,
+        columns: Range<usize>,
+        rgba: &mut [[f32; 4]],
+        depth_mm: &mut [f32],
+        numbers: &mut [u32],
+    ) -> Result<(), ReadError> {
+        if columns.is_empty() {
+            return Ok(());
+        }
+        let Self { projection, picture, bricks, rays } = *self;
+        let (frame_rays, ray) = (picture.scene.rays, rays.rows[row]);
+        let is_drawn = |line| bricks.line(line).iter().any(Option::is_some);
+        // SAFETY: rows are drawn only where these instructions were detected.
+        let mut track = unsafe { Track::new(&picture.grid, ray, frame_rays.sample_count, is_drawn) };
+        if P::IN_ANY_ORDER {
+            track.sections.sort_by(|a, b| self.rank(b).total_cmp(&self.rank(a)));
+        }
+        let drawn = Row { projection, picture, bricks, rays, track, ray };
+        let (mut state, mut samples) = (projection.start(), 0);
+        for first in columns.clone().step_by(PACKET) {
+            let span = Span { first, lanes: PACKET.min(columns.end - first) };
+            // Where the row above has its extremum, this one has a value about as good, which tells early what need not be
+            // looked at.
+            let guess = if P::IN_ANY_ORDER { numbers[first + span.lanes / 2] } else { NO_SAMPLE };
+            // SAFETY: rows are drawn only where these instructions were detected.
+            let evaluated = unsafe { drawn.draw(row as u32, span, guess, &mut state)? };
+            let Some(evaluated) = evaluated else { continue };
+            samples += evaluated;
+            for lane in 0..span.lanes {
+                let (pixel, number) = projection.finish(&state, lane);
+                rgba[first + lane] = pixel;
+                numbers[first + lane] = number;
+                if number != NO_SAMPLE {
+                    depth_mm[first + lane] = frame_rays.depth_mm(number) as f32;
+                }
+            }
+        }
+        picture.add_samples(samples);
+        Ok(())
+    }
+
+    /// The best that a section's bricks have.
+    fn rank(&self, section: &Section) -> f32 {
+        let planned = self.bricks.line(section.line).iter().flatten();
+        let reaches = planned.map(|planned| self.picture.ranges[planned.index as usize].reach);
+        reaches.filter_map(|reach| self.projection.rank(reach)).fold(f32::NEG_INFINITY, f32::max)
+    }
 }
 
 /// The columns of each row of the picture that can meet a planned brick.

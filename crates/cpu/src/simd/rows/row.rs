@@ -1,3 +1,5 @@
+use std::slice;
+
 use glassbrick_volume::{PlannedBrick, ReadError};
 
 use super::super::avx512::Avx512;
@@ -7,7 +9,7 @@ use super::super::projection::Projection;
 use super::bricks::{Bricks, Prepared};
 use super::march::{MOST_ABREAST, RowPacket, march};
 use super::rays::{RowRay, RowRays};
-use super::track::{Section, Track};
+use super::track::{Run, Section, Track};
 use super::voxels::RowVoxel;
 use crate::executor::Picture;
 
@@ -29,17 +31,25 @@ pub struct Span {
 }
 
 impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
-    /// Puts what the rays of a span gather into `state`, unless they meet no brick; how many samples were evaluated.
+    /// Puts what the rays of a span gather into `state`, unless they meet no brick; how many samples were evaluated. The
+    /// samples of number `guess`, if there are any, come before all others.
     ///
     /// # Errors
     /// When a brick cannot be read.
     #[target_feature(enable = "avx512f,avx512bw,avx512vl,popcnt")]
-    pub fn draw(&self, row: u32, span: Span, state: &mut P::State) -> Result<Option<u64>, ReadError> {
+    pub fn draw(
+        &self,
+        row: u32,
+        span: Span,
+        guess: u32,
+        state: &mut P::State,
+    ) -> Result<Option<u64>, ReadError> {
         let mut packet: Option<RowPacket<P::Gathered<Avx512>>> = None;
         let mut samples = 0;
-        let ranked = self.ranked(span);
-        for place in 0..self.track.sections.len() {
-            let section = &self.track.sections[ranked.as_ref().map_or(place, |ranked| ranked[place])];
+        let guessed = self.track.alone(guess);
+        let first = guessed.iter().map(|(section, run)| (*section, slice::from_ref(run)));
+        let all = self.track.sections.iter().map(|section| (section, &self.track.runs[section.runs.clone()]));
+        for (place, (section, runs)) in first.chain(all).enumerate() {
             let mut bricks = [None; MOST_ABREAST];
             let mut count = 0;
             for planned in self.planned(section, span) {
@@ -52,7 +62,7 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
                     }
                 }
                 if !self.bricks.is_held(planned) {
-                    self.hint(place + 1, span);
+                    self.hint(place + 1 - usize::from(guessed.is_some()), span);
                 }
                 if let Some(lined) = self.bricks.get(self.projection, self.picture, planned)? {
                     bricks[count] = Some(lined);
@@ -64,10 +74,10 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
             }
             let packet = packet.get_or_insert_with(|| self.start(row, span));
             samples += match bricks {
-                [Some(a), None, ..] => self.march(packet, section, [a]),
-                [Some(a), Some(b), None, _] => self.march(packet, section, [a, b]),
-                [Some(a), Some(b), Some(c), None] => self.march(packet, section, [a, b, c]),
-                [Some(a), Some(b), Some(c), Some(d)] => self.march(packet, section, [a, b, c, d]),
+                [Some(a), None, ..] => self.march(packet, runs, [a]),
+                [Some(a), Some(b), None, _] => self.march(packet, runs, [a, b]),
+                [Some(a), Some(b), Some(c), None] => self.march(packet, runs, [a, b, c]),
+                [Some(a), Some(b), Some(c), Some(d)] => self.march(packet, runs, [a, b, c, d]),
                 [None, ..] => 0,
             };
             if packet.open == 0 {
@@ -80,15 +90,14 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
         }))
     }
 
-    /// Adds the samples of a section in its bricks to the rays of a packet; returns how many were evaluated.
+    /// Adds the samples of some runs of a section in its bricks to the rays of a packet; returns how many were evaluated.
     #[inline(always)]
     fn march<const N: usize>(
         &self,
         packet: &mut RowPacket<P::Gathered<Avx512>>,
-        section: &Section,
+        runs: &[Run],
         bricks: [&Prepared<'a, P, V>; N],
     ) -> u64 {
-        let runs = &self.track.runs[section.runs.clone()];
         let marched = march(self.projection, packet, bricks, &self.track, runs);
         for (lined, is_met) in bricks.iter().zip(marched.is_met) {
             self.picture.is_rendered_if(lined.planned, is_met);
@@ -140,18 +149,5 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
         // Positions beyond the volume meet no brick, but looking at one more does no harm.
         let brick_at = |x: f32| (((x + 0.5) / core).max(0.0) as usize).min(line.len() - 1);
         line[brick_at(low)..=brick_at(high)].iter().copied().flatten()
-    }
-
-    /// The sections by the most that their bricks hold, where they need not come front to back.
-    fn ranked(&self, span: Span) -> Option<Vec<usize>> {
-        self.projection.rank([0.0; 2])?;
-        let rank = |section: &Section| {
-            let reaches =
-                self.planned(section, span).map(|planned| self.picture.ranges[planned.index as usize].reach);
-            reaches.filter_map(|reach| self.projection.rank(reach)).fold(f32::NEG_INFINITY, f32::max)
-        };
-        let mut ranked: Vec<(usize, f32)> = self.track.sections.iter().map(rank).enumerate().collect();
-        ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
-        Some(ranked.into_iter().map(|(place, _)| place).collect())
     }
 }

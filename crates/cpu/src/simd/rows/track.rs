@@ -8,7 +8,7 @@ use crate::scalar::samples_in_box;
 
 /// The way of a picture's row of rays through the volume, seen along x.
 pub struct Track {
-    /// Front to back.
+    /// Front to back, or in the order in which they are best drawn.
     pub sections: Vec<Section>,
     pub runs: Vec<Run>,
     /// From sample number `first` on.
@@ -86,6 +86,13 @@ impl Track {
             next = end;
         }
         track
+    }
+
+    /// The samples of one number as a run of their own, and their section; nothing where no section has them.
+    pub fn alone(&self, number: u32) -> Option<(&Section, Run)> {
+        let section = self.sections.iter().find(|section| section.numbers.contains(&number))?;
+        let cell_row = self.steps[(number - self.first) as usize].cell_row as usize;
+        Some((section, Run { numbers: number..number + 1, cell_row }))
     }
 
     #[target_feature(enable = "avx512f,avx512bw,avx512vl")]
