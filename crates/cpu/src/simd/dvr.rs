@@ -51,7 +51,6 @@ impl<'a> Projection for LaneDvr<'a> {
     type Gathered<L: Lanes> = LaneDvrState<L>;
 
     const LOOKS_AHEAD: bool = true;
-    const IN_ANY_ORDER: bool = false;
 
     fn start(&self) -> DvrState {
         DvrState { color: [[0.0; PACKET]; 3], opacity: [0.0; PACKET], depth: [NO_SAMPLE as i32; PACKET] }

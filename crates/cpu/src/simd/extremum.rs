@@ -57,7 +57,6 @@ impl Projection for LaneExtremum<'_> {
     type Cells = Option<Vec<f32>>;
 
     const LOOKS_AHEAD: bool = false;
-    const IN_ANY_ORDER: bool = true;
 
     fn start(&self) -> ExtremumState {
         ExtremumState { signed: [f32::NEG_INFINITY; PACKET], number: [f32::INFINITY; PACKET] }
@@ -72,6 +71,10 @@ impl Projection for LaneExtremum<'_> {
 
     fn rank(&self, reach: [f32; 2]) -> Option<f32> {
         Some(self.signed(reach))
+    }
+
+    fn guesses(&self) -> bool {
+        self.leaps
     }
 
     fn cells(&self, brick: &BrickView) -> Option<Option<Vec<f32>>> {

@@ -35,7 +35,6 @@ impl Projection for LaneMean<'_> {
     type Cells = ();
 
     const LOOKS_AHEAD: bool = false;
-    const IN_ANY_ORDER: bool = false;
 
     fn start(&self) -> MeanState {
         MeanState { sum: [0.0; PACKET], lost: [0.0; PACKET], samples: [0.0; PACKET] }

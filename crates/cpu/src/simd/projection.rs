@@ -20,9 +20,6 @@ pub trait Projection: Sync {
     /// Whether, where rays go along rows, it pays to look at a run's cells before its samples: where that takes a bit each.
     const LOOKS_AHEAD: bool;
 
-    /// Whether samples may come in any order, and those that decide a pixel lie where they do in its neighbour.
-    const IN_ANY_ORDER: bool;
-
     fn start(&self) -> Self::State;
 
     /// The rays that samples with stored values in [min, max] cannot change, by bit.
@@ -31,6 +28,12 @@ pub trait Projection: Sync {
     /// Which bricks are best drawn first, or nothing where they must come front to back.
     fn rank(&self, _reach: [f32; 2]) -> Option<f32> {
         None
+    }
+
+    /// Whether it pays to begin with the sample that decided a neighbour's pixel: where samples may come in any order, and one
+    /// tells what need not be looked at.
+    fn guesses(&self) -> bool {
+        false
     }
 
     /// Looks at a brick's cells; nothing where the brick holds nothing to draw.

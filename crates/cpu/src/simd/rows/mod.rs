@@ -31,7 +31,7 @@ use row::{Row, Span};
 use track::{Section, Track};
 use voxels::{RowBrick, RowVoxel};
 
-/// Rows of a picture that one thread draws one after the other, where each tells something of the next.
+/// Rows of a picture that one thread draws one after the other, where a row's samples are guessed from the one above.
 const ROWS_TOGETHER: usize = 8;
 
 /// The rays of a frame if it is best drawn along rows: nothing where they do not go so, where bricks are too
@@ -80,13 +80,13 @@ fn draw_voxels<P: Projection, V: RowVoxel>(
     let bricks = Bricks::<P, V>::new(&picture, &held);
     let columns = columns(scene);
     let width = scene.rays.size.x as usize;
-    let rows = Rows { projection, picture: &picture, bricks: &bricks, rays };
-    let together = if P::IN_ANY_ORDER { ROWS_TOGETHER } else { 1 };
+    let drawing = Drawing { projection, picture: &picture, bricks: &bricks, rays };
+    let together = if projection.guesses() { ROWS_TOGETHER } else { 1 };
     let frame = draw_rows(scene.rays.size.to_array(), together, |first, rgba, depth_mm| {
         let mut numbers = vec![NO_SAMPLE; width];
         let pixels = rgba.chunks_exact_mut(width).zip(depth_mm.chunks_exact_mut(width));
         for (row, (rgba, depth_mm)) in (first..).zip(pixels) {
-            rows.draw(row, columns[row].clone(), rgba, depth_mm, &mut numbers)?;
+            drawing.draw(row, columns[row].clone(), rgba, depth_mm, &mut numbers)?;
         }
         Ok::<(), ReadError>(())
     })?;
@@ -98,14 +98,14 @@ fn draw_voxels<P: Projection, V: RowVoxel>(
 }
 
 /// What the rows of a frame have in common.
-struct Rows<'r, 'a, P: Projection, V> {
+struct Drawing<'r, 'a, P: Projection, V> {
     projection: &'r P,
     picture: &'r Picture<'a>,
     bricks: &'r Bricks<'a, P, V>,
     rays: &'r RowRays,
 }
 
-impl<P: Projection, V: RowVoxel> Rows<'_, '_, P, V> {
+impl<P: Projection, V: RowVoxel> Drawing<'_, '_, P, V> {
     /// Draws some columns of a row. `numbers` has the sample that each pixel of the row above was taken from, and gets those of
     /// this row.
     fn draw(
@@ -124,16 +124,15 @@ impl<P: Projection, V: RowVoxel> Rows<'_, '_, P, V> {
         let is_drawn = |line| bricks.line(line).iter().any(Option::is_some);
         // SAFETY: rows are drawn only where these instructions were detected.
         let mut track = unsafe { Track::new(&picture.grid, ray, frame_rays.sample_count, is_drawn) };
-        if P::IN_ANY_ORDER {
+        if projection.guesses() {
             track.sections.sort_by(|a, b| self.rank(b).total_cmp(&self.rank(a)));
         }
         let drawn = Row { projection, picture, bricks, rays, track, ray };
         let (mut state, mut samples) = (projection.start(), 0);
         for first in columns.clone().step_by(PACKET) {
             let span = Span { first, lanes: PACKET.min(columns.end - first) };
-            // Where the row above has its extremum, this one has a value about as good, which tells early what need not be
-            // looked at.
-            let guess = if P::IN_ANY_ORDER { numbers[first + span.lanes / 2] } else { NO_SAMPLE };
+            // Where the row above has its extremum, this one has a value about as good.
+            let guess = if projection.guesses() { numbers[first + span.lanes / 2] } else { NO_SAMPLE };
             // SAFETY: rows are drawn only where these instructions were detected.
             let evaluated = unsafe { drawn.draw(row as u32, span, guess, &mut state)? };
             let Some(evaluated) = evaluated else { continue };
