@@ -52,7 +52,7 @@ pub struct Marched<const N: usize> {
     pub is_met: [bool; N],
 }
 
-/// Adds the samples of some runs in bricks side by side to a packet.
+/// Adds the samples of some runs in bricks side by side to a packet, but for those of number `but`.
 #[inline(always)]
 pub fn march<P: Projection, V: RowVoxel, const N: usize>(
     projection: &P,
@@ -60,6 +60,7 @@ pub fn march<P: Projection, V: RowVoxel, const N: usize>(
     bricks: [&Lined<V, P::RowCells<'_>>; N],
     track: &Track,
     runs: &[Run],
+    but: u32,
 ) -> Marched<N> {
     let mut samples = 0;
     let mut met = [0; N];
@@ -71,6 +72,9 @@ pub fn march<P: Projection, V: RowVoxel, const N: usize>(
             continue;
         }
         for number in run.numbers.clone() {
+            if number == but {
+                continue;
+            }
             let place = (number - track.first) as usize;
             if let Some(ahead) = track.steps.get(place + AHEAD) {
                 for lined in bricks {

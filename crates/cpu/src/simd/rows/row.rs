@@ -12,6 +12,7 @@ use super::rays::{RowRay, RowRays};
 use super::track::{Run, Section, Track};
 use super::voxels::RowVoxel;
 use crate::executor::Picture;
+use crate::kernel::NO_SAMPLE;
 
 /// A row of the picture that is being drawn.
 pub struct Row<'r, 'a, P: Projection, V> {
@@ -47,9 +48,13 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
         let mut packet: Option<RowPacket<P::Gathered<Avx512>>> = None;
         let mut samples = 0;
         let guessed = self.track.alone(guess);
-        let first = guessed.iter().map(|(section, run)| (*section, slice::from_ref(run)));
-        let all = self.track.sections.iter().map(|section| (section, &self.track.runs[section.runs.clone()]));
-        for (place, (section, runs)) in first.chain(all).enumerate() {
+        let first = guessed.iter().map(|(section, run)| (*section, slice::from_ref(run), NO_SAMPLE));
+        let others = self
+            .track
+            .sections
+            .iter()
+            .map(|section| (section, &self.track.runs[section.runs.clone()], guess));
+        for (place, (section, runs, but)) in first.chain(others).enumerate() {
             let mut bricks = [None; MOST_ABREAST];
             let mut count = 0;
             for planned in self.planned(section, span) {
@@ -74,10 +79,10 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
             }
             let packet = packet.get_or_insert_with(|| self.start(row, span));
             samples += match bricks {
-                [Some(a), None, ..] => self.march(packet, runs, [a]),
-                [Some(a), Some(b), None, _] => self.march(packet, runs, [a, b]),
-                [Some(a), Some(b), Some(c), None] => self.march(packet, runs, [a, b, c]),
-                [Some(a), Some(b), Some(c), Some(d)] => self.march(packet, runs, [a, b, c, d]),
+                [Some(a), None, ..] => self.march(packet, runs, but, [a]),
+                [Some(a), Some(b), None, _] => self.march(packet, runs, but, [a, b]),
+                [Some(a), Some(b), Some(c), None] => self.march(packet, runs, but, [a, b, c]),
+                [Some(a), Some(b), Some(c), Some(d)] => self.march(packet, runs, but, [a, b, c, d]),
                 [None, ..] => 0,
             };
             if packet.open == 0 {
@@ -96,9 +101,10 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
         &self,
         packet: &mut RowPacket<P::Gathered<Avx512>>,
         runs: &[Run],
+        but: u32,
         bricks: [&Prepared<'a, P, V>; N],
     ) -> u64 {
-        let marched = march(self.projection, packet, bricks, &self.track, runs);
+        let marched = march(self.projection, packet, bricks, &self.track, runs, but);
         for (lined, is_met) in bricks.iter().zip(marched.is_met) {
             self.picture.is_rendered_if(lined.planned, is_met);
         }
