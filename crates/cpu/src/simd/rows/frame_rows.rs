@@ -3,9 +3,9 @@ use std::mem::MaybeUninit;
 use glassbrick_volume::Frame;
 use rayon::prelude::*;
 
-/// A frame whose rows of pixels and depths are made by the threads that draw them: so many `together`, as one slice, and the
-/// number of the first, are handed out transparent. Where one
-/// thread makes all rows first, the others wait for it, a twentieth of the time of a frame of few milliseconds.
+/// A frame whose rows of pixels and depths are made by the threads that draw them: so many `together` are handed out as one
+/// transparent slice, with the number of the first. Where one thread makes all rows first, the others wait for it, a twentieth
+/// of the time of a frame of few milliseconds.
 pub fn draw_rows<E: Send>(
     [width, height]: [u32; 2],
     together: usize,

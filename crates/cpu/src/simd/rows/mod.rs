@@ -83,10 +83,10 @@ fn draw_voxels<P: Projection, V: RowVoxel>(
     let drawing = Drawing { projection, picture: &picture, bricks: &bricks, rays };
     let together = if projection.guesses() { ROWS_TOGETHER } else { 1 };
     let frame = draw_rows(scene.rays.size.to_array(), together, |first, rgba, depth_mm| {
-        let mut numbers = vec![NO_SAMPLE; width];
+        let mut guesses = projection.guesses().then(|| vec![NO_SAMPLE; width]);
         let pixels = rgba.chunks_exact_mut(width).zip(depth_mm.chunks_exact_mut(width));
         for (row, (rgba, depth_mm)) in (first..).zip(pixels) {
-            drawing.draw(row, columns[row].clone(), rgba, depth_mm, &mut numbers)?;
+            drawing.draw(row, columns[row].clone(), rgba, depth_mm, guesses.as_deref_mut())?;
         }
         Ok::<(), ReadError>(())
     })?;
@@ -106,15 +106,15 @@ struct Drawing<'r, 'a, P: Projection, V> {
 }
 
 impl<P: Projection, V: RowVoxel> Drawing<'_, '_, P, V> {
-    /// Draws some columns of a row. `numbers` has the sample that each pixel of the row above was taken from, and gets those of
-    /// this row.
+    /// Draws some columns of a row. Where samples are guessed, `guesses` has those that the pixels of the row above were taken
+    /// from, and gets those of this row.
     fn draw(
         &self,
         row: usize,
         columns: Range<usize>,
         rgba: &mut [[f32; 4]],
         depth_mm: &mut [f32],
-        numbers: &mut [u32],
+        mut guesses: Option<&mut [u32]>,
     ) -> Result<(), ReadError> {
         if columns.is_empty() {
             return Ok(());
@@ -124,7 +124,7 @@ impl<P: Projection, V: RowVoxel> Drawing<'_, '_, P, V> {
         let is_drawn = |line| bricks.line(line).iter().any(Option::is_some);
         // SAFETY: rows are drawn only where these instructions were detected.
         let mut track = unsafe { Track::new(&picture.grid, ray, frame_rays.sample_count, is_drawn) };
-        if projection.guesses() {
+        if guesses.is_some() {
             track.sections.sort_by(|a, b| self.rank(b).total_cmp(&self.rank(a)));
         }
         let drawn = Row { projection, picture, bricks, rays, track, ray };
@@ -132,7 +132,7 @@ impl<P: Projection, V: RowVoxel> Drawing<'_, '_, P, V> {
         for first in columns.clone().step_by(PACKET) {
             let span = Span { first, lanes: PACKET.min(columns.end - first) };
             // Where the row above has its extremum, this one has a value about as good.
-            let guess = if projection.guesses() { numbers[first + span.lanes / 2] } else { NO_SAMPLE };
+            let guess = guesses.as_ref().map_or(NO_SAMPLE, |guesses| guesses[first + span.lanes / 2]);
             // SAFETY: rows are drawn only where these instructions were detected.
             let evaluated = unsafe { drawn.draw(row as u32, span, guess, &mut state)? };
             let Some(evaluated) = evaluated else { continue };
@@ -140,7 +140,9 @@ impl<P: Projection, V: RowVoxel> Drawing<'_, '_, P, V> {
             for lane in 0..span.lanes {
                 let (pixel, number) = projection.finish(&state, lane);
                 rgba[first + lane] = pixel;
-                numbers[first + lane] = number;
+                if let Some(guesses) = &mut guesses {
+                    guesses[first + lane] = number;
+                }
                 if number != NO_SAMPLE {
                     depth_mm[first + lane] = frame_rays.depth_mm(number) as f32;
                 }

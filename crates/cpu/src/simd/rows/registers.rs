@@ -17,17 +17,23 @@ pub trait Registers: Copy {
 
     /// `yes` for these rays, `no` for the others.
     fn select(rays: M, yes: Self::Pairs, no: Self::Pairs) -> Self::Pairs;
+
+    /// The first of each pair and the second as numbers, up to a power of two.
+    fn numbers(pairs: Self::Pairs) -> [F; 2];
+
+    /// Takes that power of two back.
+    fn to_scale(x: F) -> F;
 }
 
 /// Words of 16 bits.
 #[derive(Clone, Copy)]
-pub struct Words(pub [I; 2]);
+pub struct Words<const SIGNED: bool>(pub [I; 2]);
 
 /// Numbers of 32 bits.
 #[derive(Clone, Copy)]
 pub struct Floats(pub [F; 4]);
 
-impl Registers for Words {
+impl<const SIGNED: bool> Registers for Words<SIGNED> {
     /// The first in the lower half.
     type Pairs = I;
 
@@ -46,6 +52,23 @@ impl Registers for Words {
     fn select(rays: M, yes: I, no: I) -> I {
         Avx512::select_i(rays, yes, no)
     }
+
+    #[inline(always)]
+    fn numbers(pairs: I) -> [F; 2] {
+        let [first, second] = if SIGNED {
+            // In the upper word the sign is in its place.
+            [Avx512::shift_left::<16>(pairs), Avx512::and_i(pairs, Avx512::splat_i(-0x1_0000))]
+        } else {
+            // SAFETY: used only where AVX-512F was detected.
+            [Avx512::and_i(pairs, Avx512::splat_i(0xFFFF)), unsafe { _mm512_srli_epi32::<16>(pairs) }]
+        };
+        [Avx512::to_f(first), Avx512::to_f(second)]
+    }
+
+    #[inline(always)]
+    fn to_scale(x: F) -> F {
+        if SIGNED { Avx512::mul(x, Avx512::splat(1.0 / 65_536.0)) } else { x }
+    }
 }
 
 impl Registers for Floats {
@@ -60,6 +83,16 @@ impl Registers for Floats {
     #[inline(always)]
     fn select(rays: M, yes: [F; 2], no: [F; 2]) -> [F; 2] {
         [Avx512::select(rays, yes[0], no[0]), Avx512::select(rays, yes[1], no[1])]
+    }
+
+    #[inline(always)]
+    fn numbers(pairs: [F; 2]) -> [F; 2] {
+        pairs
+    }
+
+    #[inline(always)]
+    fn to_scale(x: F) -> F {
+        x
     }
 }
 

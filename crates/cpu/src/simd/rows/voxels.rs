@@ -27,15 +27,6 @@ pub trait RowVoxel: LaneVoxel {
     /// # Safety
     /// They must lie there, and AVX-512BW and VL be at hand.
     unsafe fn row(voxels: *const Self, in_row: u64) -> Self::Registers;
-
-    /// The first of each pair as a number, up to a power of two.
-    fn low(pairs: Pairs<Self>) -> F;
-
-    /// The second, likewise.
-    fn high(pairs: Pairs<Self>) -> F;
-
-    /// Takes that power of two back.
-    fn to_scale(x: F) -> F;
 }
 
 /// Voxels and the next ones.
@@ -160,7 +151,7 @@ pub fn value<V: RowVoxel>(rows: &impl Rows<V>, place: &Place) -> F {
     let [_, fy, fz] = place.fraction;
     let lower = lerp::<Avx512>(along_x::<V>(rows, place, 0, 0), along_x::<V>(rows, place, 1, 0), fy);
     let upper = lerp::<Avx512>(along_x::<V>(rows, place, 0, 1), along_x::<V>(rows, place, 1, 1), fy);
-    V::to_scale(lerp::<Avx512>(lower, upper, fz))
+    V::Registers::to_scale(lerp::<Avx512>(lower, upper, fz))
 }
 
 /// The change of the stored value per voxel along each axis, up to a factor.
@@ -182,93 +173,65 @@ pub fn gradient<V: RowVoxel>(rows: &impl Rows<V>, place: &Place) -> [F; 3] {
     let z1 = Avx512::sub(r11, along_x::<V>(rows, place, 1, -1));
     let z1 = lerp::<Avx512>(z1, Avx512::sub(along_x::<V>(rows, place, 1, 2), r10), fz);
     let x = lerp::<Avx512>(x0, x1, fz);
-    [V::to_scale(x), V::to_scale(lerp::<Avx512>(y0, y1, fz)), V::to_scale(lerp::<Avx512>(z0, z1, fy))]
+    [
+        V::Registers::to_scale(x),
+        V::Registers::to_scale(lerp::<Avx512>(y0, y1, fz)),
+        V::Registers::to_scale(lerp::<Avx512>(z0, z1, fy)),
+    ]
 }
 
 /// The value in the row that lies `y` and `z` aside, to the voxel's scale.
 #[inline(always)]
 fn along_x<V: RowVoxel>(rows: &impl Rows<V>, place: &Place, y: isize, z: isize) -> F {
-    let pairs = rows.pairs(place, 0, y, z);
-    lerp::<Avx512>(V::low(pairs), V::high(pairs), place.fraction[0])
+    let [first, second] = V::Registers::numbers(rows.pairs(place, 0, y, z));
+    lerp::<Avx512>(first, second, place.fraction[0])
 }
 
 /// Twice the change along x in the row that lies `y` and `z` aside, to the voxel's scale.
 #[inline(always)]
 fn change_along_x<V: RowVoxel>(rows: &impl Rows<V>, place: &Place, y: isize, z: isize) -> F {
-    let (before, behind) = (rows.pairs(place, -1, y, z), rows.pairs(place, 1, y, z));
-    let first = Avx512::sub(V::low(behind), V::low(before));
-    lerp::<Avx512>(first, Avx512::sub(V::high(behind), V::high(before)), place.fraction[0])
+    let [before, at] = V::Registers::numbers(rows.pairs(place, -1, y, z));
+    let [next, beyond] = V::Registers::numbers(rows.pairs(place, 1, y, z));
+    lerp::<Avx512>(Avx512::sub(next, before), Avx512::sub(beyond, at), place.fraction[0])
 }
 
 impl RowVoxel for u16 {
-    type Registers = Words;
+    type Registers = Words<false>;
 
     fn of(voxels: &Voxels) -> Option<&[Self]> {
         if let Voxels::U16(voxels) = voxels { Some(voxels) } else { None }
     }
 
     #[inline(always)]
-    unsafe fn row(voxels: *const Self, in_row: u64) -> Words {
+    unsafe fn row(voxels: *const Self, in_row: u64) -> Words<false> {
         // SAFETY: the caller's promise; nothing is read where the mask is not set.
         unsafe { masked_words(voxels.cast(), in_row) }
-    }
-
-    #[inline(always)]
-    fn low(pairs: I) -> F {
-        Avx512::to_f(Avx512::and_i(pairs, Avx512::splat_i(0xFFFF)))
-    }
-
-    #[inline(always)]
-    fn high(pairs: I) -> F {
-        // SAFETY: used only where AVX-512F was detected.
-        Avx512::to_f(unsafe { _mm512_srli_epi32::<16>(pairs) })
-    }
-
-    #[inline(always)]
-    fn to_scale(x: F) -> F {
-        x
     }
 }
 
 impl RowVoxel for i16 {
-    type Registers = Words;
+    type Registers = Words<true>;
 
     fn of(voxels: &Voxels) -> Option<&[Self]> {
         if let Voxels::I16(voxels) = voxels { Some(voxels) } else { None }
     }
 
     #[inline(always)]
-    unsafe fn row(voxels: *const Self, in_row: u64) -> Words {
+    unsafe fn row(voxels: *const Self, in_row: u64) -> Words<true> {
         // SAFETY: the caller's promise; nothing is read where the mask is not set.
         unsafe { masked_words(voxels, in_row) }
-    }
-
-    #[inline(always)]
-    fn low(pairs: I) -> F {
-        // In the upper word the sign is in its place.
-        Avx512::to_f(Avx512::shift_left::<16>(pairs))
-    }
-
-    #[inline(always)]
-    fn high(pairs: I) -> F {
-        Avx512::to_f(Avx512::and_i(pairs, Avx512::splat_i(-0x1_0000)))
-    }
-
-    #[inline(always)]
-    fn to_scale(x: F) -> F {
-        Avx512::mul(x, Avx512::splat(1.0 / 65_536.0))
     }
 }
 
 impl RowVoxel for u8 {
-    type Registers = Words;
+    type Registers = Words<false>;
 
     fn of(voxels: &Voxels) -> Option<&[Self]> {
         if let Voxels::U8(voxels) = voxels { Some(voxels) } else { None }
     }
 
     #[inline(always)]
-    unsafe fn row(voxels: *const Self, in_row: u64) -> Words {
+    unsafe fn row(voxels: *const Self, in_row: u64) -> Words<false> {
         // SAFETY: the caller's promise; nothing is read where the mask is not set.
         unsafe {
             let row = _mm512_maskz_loadu_epi8(in_row, voxels.cast());
@@ -278,32 +241,17 @@ impl RowVoxel for u8 {
             ])
         }
     }
-
-    #[inline(always)]
-    fn low(pairs: I) -> F {
-        u16::low(pairs)
-    }
-
-    #[inline(always)]
-    fn high(pairs: I) -> F {
-        u16::high(pairs)
-    }
-
-    #[inline(always)]
-    fn to_scale(x: F) -> F {
-        u16::to_scale(x)
-    }
 }
 
 impl RowVoxel for i8 {
-    type Registers = Words;
+    type Registers = Words<true>;
 
     fn of(voxels: &Voxels) -> Option<&[Self]> {
         if let Voxels::I8(voxels) = voxels { Some(voxels) } else { None }
     }
 
     #[inline(always)]
-    unsafe fn row(voxels: *const Self, in_row: u64) -> Words {
+    unsafe fn row(voxels: *const Self, in_row: u64) -> Words<true> {
         // SAFETY: the caller's promise; nothing is read where the mask is not set.
         unsafe {
             let row = _mm512_maskz_loadu_epi8(in_row, voxels);
@@ -312,21 +260,6 @@ impl RowVoxel for i8 {
                 _mm512_cvtepi8_epi16(_mm512_extracti64x4_epi64::<1>(row)),
             ])
         }
-    }
-
-    #[inline(always)]
-    fn low(pairs: I) -> F {
-        i16::low(pairs)
-    }
-
-    #[inline(always)]
-    fn high(pairs: I) -> F {
-        i16::high(pairs)
-    }
-
-    #[inline(always)]
-    fn to_scale(x: F) -> F {
-        i16::to_scale(x)
     }
 }
 
@@ -349,27 +282,12 @@ impl RowVoxel for f32 {
             ])
         }
     }
-
-    #[inline(always)]
-    fn low([low, _]: [F; 2]) -> F {
-        low
-    }
-
-    #[inline(always)]
-    fn high([_, high]: [F; 2]) -> F {
-        high
-    }
-
-    #[inline(always)]
-    fn to_scale(x: F) -> F {
-        x
-    }
 }
 
 /// # Safety
 /// As of [`RowVoxel::row`].
 #[inline(always)]
-unsafe fn masked_words(words: *const i16, in_row: u64) -> Words {
+unsafe fn masked_words<const SIGNED: bool>(words: *const i16, in_row: u64) -> Words<SIGNED> {
     // SAFETY: the caller's promise; nothing is read where the mask is not set.
     unsafe {
         Words([
