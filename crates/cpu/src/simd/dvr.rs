@@ -1,7 +1,7 @@
 use glam::Mat3;
 use glassbrick_volume::{Occupancy, Phong, ShownValues};
 
-use super::brick::{LaneBrick, LaneRays, Surroundings};
+use super::brick::{LaneBrick, LaneSample};
 use super::functions::{opacity, power};
 use super::lanes::{Lanes, RowLanes};
 use super::look_up::LaneLookUp;
@@ -161,59 +161,20 @@ impl<'a> Projection for LaneDvr<'a> {
     }
 
     #[inline(always)]
-    fn march<L: Lanes, V: LaneVoxel>(
+    fn vacant<L: Lanes, V: LaneVoxel>(
         &self,
-        packet: &mut Packet<DvrState>,
-        first: usize,
-        brick: &LaneBrick<V>,
         cells: &Option<&'a Occupancy>,
-        last_sample: f32,
-    ) -> u64 {
-        let rays = LaneRays::<L>::load(packet, first);
-        let mut open = L::mask(packet.open() >> first);
-        let (mut number, last) = brick.interval::<L>(&rays);
-        let last = L::min(last, L::splat(last_sample));
-        let mut gathered = self.load::<L>(&packet.state, first);
-        let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let mut samples = 0;
-        let mut done = L::mask(0);
-        loop {
-            open = L::both(open, L::ge(last, number));
-            if !L::any(open) {
-                break;
-            }
-            let mut sample = brick.sample::<L>(&rays, number, open);
-            if let Some(occupancy) = cells {
-                // All rays leap to where something may be seen before any is evaluated, so that many are at once.
-                loop {
-                    let index = brick.cell_index::<L>(&sample);
-                    // SAFETY: the index is a cell's, and three bytes and more follow the last.
-                    let bytes = unsafe { L::gather_bytes(occupancy.distance.as_ptr(), index) };
-                    let distance = L::and_i(bytes, L::splat_i(0xFF));
-                    let vacant = L::both(sample.owned, L::gt_i(distance, L::splat_i(0)));
-                    if !L::any(vacant) {
-                        break;
-                    }
-                    let leap = brick.leap::<L>(&rays, &sample, L::to_f(distance));
-                    number = L::add(number, L::select(vacant, leap, zero));
-                    open = L::both(open, L::ge(last, number));
-                    sample = brick.sample::<L>(&rays, number, open);
-                }
-            }
-            if L::any(sample.owned) {
-                samples += u64::from(L::mask_bits(sample.owned).count_ones());
-                let place = brick.place::<L>(&sample);
-                let evaluated = Evaluated { rays: sample.owned, number, stored: brick.value::<L>(&place) };
-                let surroundings = Surroundings { brick, place };
-                let closed = self.add::<L>(&mut gathered, &rays.steps, &evaluated, &surroundings);
-                open = L::but_not(open, closed);
-                done = L::either(done, closed);
-            }
-            number = L::add(number, one);
-        }
-        self.store::<L>(&gathered, &mut packet.state, first);
-        packet.done |= L::mask_bits(done) << first;
-        samples
+        brick: &LaneBrick<V>,
+        sample: &LaneSample<L>,
+        _gathered: &LaneDvrState<L>,
+        _number: L::F,
+    ) -> (L::M, L::F) {
+        let Some(occupancy) = cells else { return (L::mask(0), L::splat(0.0)) };
+        let index = brick.cell_index::<L>(sample);
+        // SAFETY: the index is a cell's, and three bytes and more follow the last.
+        let bytes = unsafe { L::gather_bytes(occupancy.distance.as_ptr(), index) };
+        let distance = L::and_i(bytes, L::splat_i(0xFF));
+        (L::both(sample.owned, L::gt_i(distance, L::splat_i(0))), L::to_f(distance))
     }
 
     fn finish(&self, state: &DvrState, lane: usize) -> ([f32; 4], u32) {

@@ -1,6 +1,6 @@
 use glassbrick_volume::Occupancy;
 
-use super::brick::{LaneBrick, LaneRays, Surroundings};
+use super::brick::{LaneBrick, LaneSample};
 use super::lanes::{Lanes, RowLanes};
 use super::packet::{Column, LaneSteps, PACKET, Packet};
 use super::projection::{Evaluated, Projection, Slopes};
@@ -158,52 +158,18 @@ impl Projection for LaneExtremum<'_> {
     }
 
     #[inline(always)]
-    fn march<L: Lanes, V: LaneVoxel>(
+    fn vacant<L: Lanes, V: LaneVoxel>(
         &self,
-        packet: &mut Packet<ExtremumState>,
-        first: usize,
-        brick: &LaneBrick<V>,
         cells: &Option<Vec<f32>>,
-        last_sample: f32,
-    ) -> u64 {
-        let rays = LaneRays::<L>::load(packet, first);
-        let mut open = L::mask(packet.open() >> first);
-        let (mut number, last) = brick.interval::<L>(&rays);
-        let last = L::min(last, L::splat(last_sample));
-        let mut gathered = self.load::<L>(&packet.state, first);
-        let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let mut samples = 0;
-        loop {
-            open = L::both(open, L::ge(last, number));
-            if !L::any(open) {
-                break;
-            }
-            let mut sample = brick.sample::<L>(&rays, number, open);
-            if let Some(cells) = cells {
-                // All rays leap to where they may find more before any is evaluated, so that many are at once.
-                loop {
-                    // SAFETY: the index is a cell's.
-                    let most_in_cell = unsafe { L::gather(cells.as_ptr(), brick.cell_index::<L>(&sample)) };
-                    let vacant = L::but_not(sample.owned, gathered.gains_by(most_in_cell, number));
-                    if !L::any(vacant) {
-                        break;
-                    }
-                    let leap = brick.leap::<L>(&rays, &sample, one);
-                    number = L::add(number, L::select(vacant, leap, zero));
-                    open = L::both(open, L::ge(last, number));
-                    sample = brick.sample::<L>(&rays, number, open);
-                }
-            }
-            if L::any(sample.owned) {
-                samples += u64::from(L::mask_bits(sample.owned).count_ones());
-                let place = brick.place::<L>(&sample);
-                let evaluated = Evaluated { rays: sample.owned, number, stored: brick.value::<L>(&place) };
-                self.add::<L>(&mut gathered, &rays.steps, &evaluated, &Surroundings { brick, place });
-            }
-            number = L::add(number, one);
-        }
-        self.store::<L>(&gathered, &mut packet.state, first);
-        samples
+        brick: &LaneBrick<V>,
+        sample: &LaneSample<L>,
+        gathered: &LaneExtremumState<L>,
+        number: L::F,
+    ) -> (L::M, L::F) {
+        let Some(cells) = cells else { return (L::mask(0), L::splat(0.0)) };
+        // SAFETY: the index is a cell's.
+        let most_in_cell = unsafe { L::gather(cells.as_ptr(), brick.cell_index::<L>(sample)) };
+        (L::but_not(sample.owned, gathered.gains_by(most_in_cell, number)), L::splat(1.0))
     }
 
     fn finish(&self, state: &ExtremumState, lane: usize) -> ([f32; 4], u32) {

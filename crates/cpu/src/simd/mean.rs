@@ -1,6 +1,6 @@
 use glassbrick_volume::Occupancy;
 
-use super::brick::{LaneBrick, LaneRays, Surroundings};
+use super::brick::{LaneBrick, LaneSample};
 use super::lanes::{Lanes, RowLanes};
 use super::packet::{Column, LaneSteps, PACKET, Packet};
 use super::projection::{Evaluated, Projection, Slopes};
@@ -120,34 +120,15 @@ impl Projection for LaneMean<'_> {
     }
 
     #[inline(always)]
-    fn march<L: Lanes, V: LaneVoxel>(
+    fn vacant<L: Lanes, V: LaneVoxel>(
         &self,
-        packet: &mut Packet<MeanState>,
-        first: usize,
-        brick: &LaneBrick<V>,
         _cells: &(),
-        last_sample: f32,
-    ) -> u64 {
-        let rays = LaneRays::<L>::load(packet, first);
-        let mut open = L::mask(packet.open() >> first);
-        let (mut number, last) = brick.interval::<L>(&rays);
-        let last = L::min(last, L::splat(last_sample));
-        let mut gathered = self.load::<L>(&packet.state, first);
-        let mut samples = 0;
-        loop {
-            open = L::both(open, L::ge(last, number));
-            if !L::any(open) {
-                break;
-            }
-            let sample = brick.sample::<L>(&rays, number, open);
-            samples += u64::from(L::mask_bits(sample.owned).count_ones());
-            let place = brick.place::<L>(&sample);
-            let evaluated = Evaluated { rays: sample.owned, number, stored: brick.value::<L>(&place) };
-            self.add::<L>(&mut gathered, &rays.steps, &evaluated, &Surroundings { brick, place });
-            number = L::add(number, L::splat(1.0));
-        }
-        self.store::<L>(&gathered, &mut packet.state, first);
-        samples
+        _brick: &LaneBrick<V>,
+        _sample: &LaneSample<L>,
+        _gathered: &LaneMeanState<L>,
+        _number: L::F,
+    ) -> (L::M, L::F) {
+        (L::mask(0), L::splat(0.0))
     }
 
     fn finish(&self, state: &MeanState, lane: usize) -> ([f32; 4], u32) {

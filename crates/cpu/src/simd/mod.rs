@@ -16,6 +16,7 @@ mod functions;
 mod instruction_set;
 mod lanes;
 mod look_up;
+mod march;
 mod mean;
 mod occupied_rows;
 mod packet;
@@ -42,6 +43,7 @@ use extremum::LaneExtremum;
 pub use instruction_set::InstructionSet;
 use lanes::Lanes;
 use look_up::LaneLookUp;
+use march::march;
 use mean::LaneMean;
 use packet::{PACKET, PacketTile};
 use portable::Portable;
@@ -238,7 +240,7 @@ impl<P: Projection> Vectors<P> {
             }
             for first in (0..PACKET).step_by(L::COUNT) {
                 samples +=
-                    self.projection.march::<L, V>(packet, first, voxels, &brick.cells, self.last_sample);
+                    march::<P, L, V>(&self.projection, packet, first, voxels, &brick.cells, self.last_sample);
             }
         }
         samples

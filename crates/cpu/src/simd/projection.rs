@@ -1,6 +1,6 @@
 use glassbrick_volume::Occupancy;
 
-use super::brick::LaneBrick;
+use super::brick::{LaneBrick, LaneSample};
 use super::lanes::{Lanes, RowLanes};
 use super::packet::{LaneSteps, Packet};
 use super::voxel::LaneVoxel;
@@ -83,16 +83,16 @@ pub trait Projection: Sync {
         number: L::F,
     ) -> L::M;
 
-    /// Adds a brick's samples, up to number `last_sample`, to the rays of a packet from lane `first` on; returns how
-    /// many were evaluated.
-    fn march<L: Lanes, V: LaneVoxel>(
+    /// The rays whose samples lie in cells of a brick that cannot change them, and how far each may leap: beyond the cells
+    /// that are nearer than this to its own.
+    fn vacant<L: Lanes, V: LaneVoxel>(
         &self,
-        packet: &mut Packet<Self::State>,
-        first: usize,
-        brick: &LaneBrick<V>,
         cells: &Self::Cells,
-        last_sample: f32,
-    ) -> u64;
+        brick: &LaneBrick<V>,
+        sample: &LaneSample<L>,
+        gathered: &Self::Gathered<L>,
+        number: L::F,
+    ) -> (L::M, L::F);
 
     /// Premultiplied linear light of a ray, and the sample number that its depth is taken from.
     fn finish(&self, state: &Self::State, lane: usize) -> ([f32; 4], u32);
