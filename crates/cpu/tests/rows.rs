@@ -1,51 +1,12 @@
 //! Pictures that are drawn along rows of voxels are, to the bit, those whose voxels are gathered.
 
-use std::sync::Arc;
-
 use glam::{UVec2, UVec3};
-use glassbrick_brick_store::FlatSource;
+use glassbrick_brick_store::{CachedSource, FlatSource};
 use glassbrick_cpu::{CpuFrame, CpuScene, InstructionSet, ShownCells, draw};
 use glassbrick_volume::{
-    Brick, BrickGrid, BrickId, BrickLayout, BrickRange, BrickSource, Camera, ControlPoint, FramePlan,
-    FrameRays, Mode, NamedView, Phong, ReadError, RenderSettings, Skip, StoredType, TransferFunction,
-    VolumeDesc, VoxelCountTable, filtered_visible,
+    BrickLayout, BrickSource, Camera, ControlPoint, FramePlan, FrameRays, Mode, NamedView, Phong,
+    RenderSettings, Skip, StoredType, TransferFunction, VolumeDesc, filtered_visible,
 };
-
-/// A source without the memory for all bricks of a frame: these frames are drawn layer by layer, by gathering.
-struct ShortOfMemory<'a>(&'a FlatSource);
-
-impl BrickSource for ShortOfMemory<'_> {
-    fn desc(&self) -> &VolumeDesc {
-        self.0.desc()
-    }
-    fn levels(&self) -> u32 {
-        self.0.levels()
-    }
-    fn grid(&self, level: u32) -> BrickGrid {
-        self.0.grid(level)
-    }
-    fn ranges(&self, level: u32) -> &[BrickRange] {
-        self.0.ranges(level)
-    }
-    fn voxel_count_tables(&self, level: u32) -> Result<Arc<Vec<VoxelCountTable>>, ReadError> {
-        self.0.voxel_count_tables(level)
-    }
-    fn brick(&self, id: BrickId) -> Result<Arc<Brick>, ReadError> {
-        self.0.brick(id)
-    }
-    fn will_need(&self, bricks: &[BrickId]) {
-        self.0.will_need(bricks);
-    }
-    fn can_hold(&self, _bricks: usize) -> bool {
-        false
-    }
-    fn not_finite(&self) -> u64 {
-        self.0.not_finite()
-    }
-    fn bytes_read(&self) -> u64 {
-        self.0.bytes_read()
-    }
-}
 
 const EXTENT: UVec3 = UVec3::new(150, 70, 90);
 
@@ -75,8 +36,17 @@ fn volume(stored_type: StoredType, edge: u32) -> FlatSource {
     FlatSource::from_array(desc, bytes, BrickLayout { edge, halo: 2 }).expect("the array is sound")
 }
 
+/// The same with memory for all its bricks, so that it is drawn along rows where rays go so.
+fn in_memory(stored_type: StoredType, edge: u32) -> CachedSource {
+    let source = volume(stored_type, edge);
+    let brick_bytes = 4 * u64::from(edge).pow(3) * 2;
+    let bricks = source.grid(0).len() as u64 + 1;
+    CachedSource::new(Box::new(source), bricks * brick_bytes, 1)
+        .expect("there is room for more than one brick")
+}
+
 /// A veil, and something opaque.
-fn transfer_function(source: &FlatSource) -> TransferFunction {
+fn transfer_function(source: &dyn BrickSource) -> TransferFunction {
     let ranges = source.ranges(0).iter().map(|range| range.core);
     let [low, high] =
         ranges.fold([f32::INFINITY, f32::NEG_INFINITY], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
@@ -144,7 +114,9 @@ fn rows_are_what_is_gathered() {
         (StoredType::F32, 64),
         (StoredType::I32, 40),
     ] {
-        let source = volume(stored_type, edge);
+        // Without memory for all bricks of a frame, it is drawn layer by layer, by gathering.
+        let (source, short_of_memory) = (in_memory(stored_type, edge), volume(stored_type, edge));
+        assert!(source.can_hold(source.grid(0).len()) && !short_of_memory.can_hold(1));
         let tf = transfer_function(&source);
         let views = [NamedView::Front, NamedView::Back, NamedView::Top, NamedView::Bottom];
         let mut cameras: Vec<Camera> =
@@ -154,7 +126,7 @@ fn rows_are_what_is_gathered() {
             for size in [UVec2::new(19, 13), UVec2::new(90, 70), UVec2::new(200, 160)] {
                 for settings in settings() {
                     let rows = frame(&source, &tf, camera, size, settings);
-                    let gathered = frame(&ShortOfMemory(&source), &tf, camera, size, settings);
+                    let gathered = frame(&short_of_memory, &tf, camera, size, settings);
                     let what = format!("{stored_type}, {edge}, {size}, {settings:?}, {camera:?}");
                     assert!(gathered.rendered > 0, "{what}: nothing is drawn");
                     assert!(rows.frame == gathered.frame, "{what}: the pictures differ");
