@@ -3,7 +3,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use glassbrick_volume::{
-    Brick, BrickGrid, BrickId, BrickRange, BrickSource, ReadError, VolumeDesc, VoxelCountTable,
+    Brick, BrickGrid, BrickId, BrickRange, BrickSource, ReadError, RowAxis, VolumeDesc, VoxelCountTable,
 };
 use quick_cache::sync::Cache;
 use quick_cache::{DefaultHashBuilder, Lifecycle, OptionsBuilder, Weighter};
@@ -18,7 +18,7 @@ use crate::decode::brick_bytes;
 /// a time.
 pub struct CachedSource {
     source: Box<dyn BrickSource>,
-    kept: Cache<BrickId, Arc<Brick>, ByBytes, DefaultHashBuilder, CountEvictions>,
+    kept: Cache<KeptId, Arc<Brick>, ByBytes, DefaultHashBuilder, CountEvictions>,
     evictions: Arc<AtomicU64>,
     budget_bytes: u64,
     /// Of one brick.
@@ -43,11 +43,14 @@ pub struct CacheCounts {
     pub load_time: Duration,
 }
 
+/// A brick may be kept along several axes.
+type KeptId = (BrickId, RowAxis);
+
 #[derive(Clone)]
 struct ByBytes;
 
-impl Weighter<BrickId, Arc<Brick>> for ByBytes {
-    fn weight(&self, _id: &BrickId, brick: &Arc<Brick>) -> u64 {
+impl Weighter<KeptId, Arc<Brick>> for ByBytes {
+    fn weight(&self, _id: &KeptId, brick: &Arc<Brick>) -> u64 {
         brick.bytes() as u64
     }
 }
@@ -55,10 +58,10 @@ impl Weighter<BrickId, Arc<Brick>> for ByBytes {
 #[derive(Clone)]
 struct CountEvictions(Arc<AtomicU64>);
 
-impl Lifecycle<BrickId, Arc<Brick>> for CountEvictions {
+impl Lifecycle<KeptId, Arc<Brick>> for CountEvictions {
     type RequestState = ();
 
-    fn on_evict(&self, _state: &mut (), _id: BrickId, _brick: Arc<Brick>) {
+    fn on_evict(&self, _state: &mut (), _id: KeptId, _brick: Arc<Brick>) {
         self.0.fetch_add(1, Ordering::Relaxed);
     }
 }
@@ -158,10 +161,20 @@ impl BrickSource for CachedSource {
     }
 
     fn brick(&self, id: BrickId) -> Result<Arc<Brick>, ReadError> {
+        self.brick_along(id, RowAxis::X)
+    }
+
+    /// A brick that is kept along x is turned, not loaded again.
+    fn brick_along(&self, id: BrickId, row_axis: RowAxis) -> Result<Arc<Brick>, ReadError> {
         let mut missed = false;
-        let brick = self.kept.get_or_insert_with(&id, || {
-            missed = true;
-            self.load(id)
+        let brick = self.kept.get_or_insert_with(&(id, row_axis), || {
+            let kept = if row_axis == RowAxis::X { None } else { self.kept.get(&(id, RowAxis::X)) };
+            missed = kept.is_none();
+            let brick = kept.map_or_else(|| self.load(id), Ok)?;
+            if brick.row_axis == row_axis {
+                return Ok(brick);
+            }
+            Ok::<_, ReadError>(Arc::new(Arc::unwrap_or_clone(brick).along(row_axis)))
         })?;
         self.count(missed);
         Ok(brick)
@@ -169,14 +182,14 @@ impl BrickSource for CachedSource {
 
     /// Threads share what has to be loaded; what is kept is looked up before and put in after, one by one.
     fn bricks(&self, ids: &[BrickId]) -> Vec<Result<Arc<Brick>, ReadError>> {
-        let kept: Vec<Option<Arc<Brick>>> = ids.iter().map(|id| self.kept.get(id)).collect();
+        let kept: Vec<Option<Arc<Brick>>> = ids.iter().map(|&id| self.kept.get(&(id, RowAxis::X))).collect();
         let missed: Vec<bool> = kept.iter().map(Option::is_none).collect();
         let bricks: Vec<Result<Arc<Brick>, ReadError>> =
             ids.par_iter().zip(kept).map(|(&id, kept)| kept.map_or_else(|| self.load(id), Ok)).collect();
         for ((&id, brick), missed) in ids.iter().zip(&bricks).zip(missed) {
             if let Ok(brick) = brick {
                 if missed {
-                    self.kept.insert(id, Arc::clone(brick));
+                    self.kept.insert((id, RowAxis::X), Arc::clone(brick));
                 }
                 self.count(missed);
             }
@@ -185,8 +198,9 @@ impl BrickSource for CachedSource {
     }
 
     fn will_need(&self, bricks: &[BrickId]) {
-        let missing: Vec<BrickId> =
-            bricks.iter().copied().filter(|id| self.kept.peek(id).is_none()).collect();
+        let is_missing =
+            |id: &BrickId| RowAxis::ALL.iter().all(|&axis| self.kept.peek(&(*id, axis)).is_none());
+        let missing: Vec<BrickId> = bricks.iter().copied().filter(is_missing).collect();
         self.source.will_need(&missing);
     }
 
@@ -200,5 +214,52 @@ impl BrickSource for CachedSource {
 
     fn bytes_read(&self) -> u64 {
         self.source.bytes_read()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::UVec3;
+    use glassbrick_volume::{BrickLayout, StoredType, Voxels};
+
+    use super::*;
+    use crate::FlatSource;
+
+    /// One brick of 4³ voxels that count on, with memory for so many of its kind besides the one in use.
+    fn cached(bricks: u64) -> CachedSource {
+        let (layout, desc) =
+            (BrickLayout { edge: 8, halo: 2 }, VolumeDesc::new(UVec3::splat(4), StoredType::U8));
+        let source = FlatSource::from_array(desc, (0..64).collect(), layout).expect("a sound array");
+        let budget = (bricks + 1) * brick_bytes(StoredType::U8, layout);
+        CachedSource::new(Box::new(source), budget, 1).expect("there is room for a brick")
+    }
+
+    #[test]
+    fn a_brick_that_is_kept_is_turned_and_not_loaded_again() {
+        let source = cached(3);
+        let id = BrickId::new(0, UVec3::ZERO);
+        let brick = source.brick(id).expect("an array can be read");
+        for row_axis in RowAxis::ALL {
+            let turned = source.brick_along(id, row_axis).expect("an array can be read");
+            assert_eq!(turned.row_axis, row_axis);
+            assert_eq!(*turned, Brick::clone(&brick).along(row_axis));
+            let again = source.brick_along(id, row_axis).expect("an array can be read");
+            assert!(Arc::ptr_eq(&turned, &again), "{row_axis:?} is kept");
+        }
+        assert_eq!((source.counts().misses, source.counts().hits), (1, 6));
+    }
+
+    #[test]
+    fn a_brick_that_is_asked_for_turned_is_kept_turned_only() {
+        let source = cached(3);
+        let id = BrickId::new(0, UVec3::ZERO);
+        let turned = source.brick_along(id, RowAxis::Z).expect("an array can be read");
+        let Voxels::U8(voxels) = &turned.voxels else { panic!("the voxels have the array's type") };
+        // Behind the halo and one voxel along z, of which a slab has 16.
+        assert_eq!(voxels[(2 * 8 + 2) * 8 + 3], 16);
+        let again = source.brick_along(id, RowAxis::Z).expect("an array can be read");
+        assert!(Arc::ptr_eq(&turned, &again));
+        let CacheCounts { misses, peak_bytes, .. } = source.counts();
+        assert_eq!((misses, peak_bytes), (1, 2 * turned.bytes() as u64), "it, and room for the one in use");
     }
 }

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use glassbrick_volume::{
     BakedTransferFunction, Brick, BrickGrid, BrickId, BrickRange, BrickSource, Frame, FramePlan, FrameRays,
-    PlannedBrick, ReadError, RenderSettings, Skip,
+    PlannedBrick, ReadError, RenderSettings, RowAxis, Skip,
 };
 
 use crate::kernel::{BrickView, Kernel};
@@ -45,7 +45,7 @@ pub fn draw_with<K: Kernel>(
     source: &dyn BrickSource,
     scene: &CpuScene,
 ) -> Result<CpuFrame, ReadError> {
-    let picture = Picture::new(source, scene);
+    let picture = Picture::new(source, scene, RowAxis::X);
     if picture.can_be_held() { by_blocks::draw(kernel, picture) } else { by_layers::draw(kernel, picture) }
 }
 
@@ -57,6 +57,8 @@ pub struct Picture<'a> {
     pub scene: &'a CpuScene<'a>,
     pub ranges: &'a [BrickRange],
     pub grid: BrickGrid,
+    /// The axis along which the rows of bricks lie that are held.
+    pub row_axis: RowAxis,
     source: &'a dyn BrickSource,
     samples: AtomicU64,
     /// By place in the grid.
@@ -65,12 +67,13 @@ pub struct Picture<'a> {
 }
 
 impl<'a> Picture<'a> {
-    pub fn new(source: &'a dyn BrickSource, scene: &'a CpuScene<'a>) -> Self {
+    pub fn new(source: &'a dyn BrickSource, scene: &'a CpuScene<'a>, row_axis: RowAxis) -> Self {
         let grid = source.grid(scene.plan.level);
         Self {
             scene,
             ranges: source.ranges(scene.plan.level),
             grid,
+            row_axis,
             source,
             samples: AtomicU64::new(0),
             is_rendered: (0..grid.len()).map(|_| AtomicBool::new(false)).collect(),
@@ -97,7 +100,7 @@ impl<'a> Picture<'a> {
 
     /// The voxels of a planned brick; nothing of a damaged one that may be left out.
     fn load(&self, brick: &PlannedBrick) -> Result<Option<Arc<Brick>>, ReadError> {
-        self.unless_damaged(brick, self.source.brick(self.id(brick)))
+        self.unless_damaged(brick, self.source.brick_along(self.id(brick), self.row_axis))
     }
 
     /// The voxels of a planned brick that is held until the picture is finished. It is loaded once, however many threads come

@@ -41,9 +41,9 @@ pub struct BrickView<'a> {
     pub index: u32,
     /// The pixels that can meet it.
     pub footprint: PixelRect,
-    /// The volume's voxel that is the brick's first.
+    /// The volume's voxel that is the brick's first, along the brick's axes.
     pub halo_start: IVec3,
-    /// The half-open box of sample positions that belong to it.
+    /// The half-open box of sample positions that belong to it, along the brick's axes.
     pub owned: [Vec3; 2],
     /// Smallest and largest stored value that a sample in it can have.
     pub reach: [f32; 2],
@@ -51,7 +51,8 @@ pub struct BrickView<'a> {
 
 impl<'a> BrickView<'a> {
     pub fn new(brick: &'a Brick, planned: &PlannedBrick, grid: &BrickGrid, range: &BrickRange) -> Self {
-        let at = grid.brick(planned.index as usize);
+        let at = brick.row_axis.swapped(grid.brick(planned.index as usize).to_array()).into();
+        let grid = grid.along(brick.row_axis);
         Self {
             brick,
             index: planned.index,

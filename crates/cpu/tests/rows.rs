@@ -1,10 +1,10 @@
 //! Pictures that are drawn along rows of voxels are, to the bit, those whose voxels are gathered.
 
-use glam::{UVec2, UVec3};
+use glam::{DVec3, UVec2, UVec3};
 use glassbrick_brick_store::{CachedSource, FlatSource};
 use glassbrick_cpu::{CpuFrame, CpuScene, InstructionSet, ShownCells, draw};
 use glassbrick_volume::{
-    BrickLayout, BrickSource, Camera, ControlPoint, FramePlan, FrameRays, Mode, NamedView, Phong,
+    BrickLayout, BrickSource, Camera, ControlPoint, FramePlan, FrameRays, Mode, NamedView, Phong, Projection,
     RenderSettings, Skip, StoredType, TransferFunction, VolumeDesc, filtered_visible,
 };
 
@@ -118,10 +118,15 @@ fn rows_are_what_is_gathered() {
         let (source, short_of_memory) = (in_memory(stored_type, edge), volume(stored_type, edge));
         assert!(source.can_hold(source.grid(0).len()) && !short_of_memory.can_hold(1));
         let tf = transfer_function(&source);
-        let views = [NamedView::Front, NamedView::Back, NamedView::Top, NamedView::Bottom];
-        let mut cameras: Vec<Camera> =
-            views.iter().map(|&view| Camera::framing(source.desc(), view)).collect();
-        cameras.push(Camera::framing_around(source.desc(), 0.0, 25.0));
+        let views = [NamedView::Front, NamedView::Back, NamedView::Top, NamedView::Left, NamedView::Right];
+        let mut cameras = views.map(|view| Camera::framing(source.desc(), view)).to_vec();
+        let around = |azimuth, elevation| Camera::framing_around(source.desc(), azimuth, elevation);
+        // Tilted and turned, and so with rows along each axis standing and lying in the picture.
+        let (tilted, turned, both) = (around(0.0, 25.0), around(35.0, 0.0), around(90.0, 25.0));
+        cameras.extend([tilted, turned, both]);
+        cameras.extend([tilted, turned].map(|camera| Camera { up: DVec3::X, ..camera }));
+        cameras.push(Camera { up: DVec3::Y, ..both });
+        cameras.push(Camera { projection: Projection::Orthographic { height_mm: 120.0 }, ..turned });
         for camera in &cameras {
             for size in [UVec2::new(19, 13), UVec2::new(90, 70), UVec2::new(200, 160)] {
                 for settings in settings() {

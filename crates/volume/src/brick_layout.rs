@@ -1,7 +1,7 @@
 use glam::{IVec3, UVec3, Vec3};
 
-use crate::VOLUME_MARGIN_VOXELS;
 use crate::volume_level::{level_end, level_extent};
+use crate::{RowAxis, VOLUME_MARGIN_VOXELS};
 
 /// How a volume is cut: bricks of `edge`³ voxels, of which a halo on every side repeats the neighbours' voxels.
 ///
@@ -89,6 +89,16 @@ pub struct BrickGrid {
 }
 
 impl BrickGrid {
+    /// The grid of the volume that lies turned so that its bricks' rows lie along an axis.
+    pub fn along(&self, row_axis: RowAxis) -> Self {
+        Self {
+            layout: self.layout,
+            extent: row_axis.swapped(self.extent.to_array()).into(),
+            end: row_axis.swapped(self.end.to_array()).into(),
+            counts: row_axis.swapped(self.counts.to_array()).into(),
+        }
+    }
+
     /// Number of bricks.
     pub fn len(&self) -> usize {
         self.counts.as_usizevec3().element_product()

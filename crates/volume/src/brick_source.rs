@@ -1,6 +1,6 @@
 use std::sync::{Arc, OnceLock};
 
-use crate::{BrickCells, BrickGrid, BrickId, BrickRange, ReadError, VolumeDesc, VoxelCountTable};
+use crate::{BrickCells, BrickGrid, BrickId, BrickRange, ReadError, RowAxis, VolumeDesc, VoxelCountTable};
 
 /// Where bricks come from. Renderers and residency know nothing else of files.
 pub trait BrickSource: Send + Sync {
@@ -28,6 +28,15 @@ pub trait BrickSource: Send + Sync {
     /// When it cannot be read; the message names it.
     fn brick(&self, id: BrickId) -> Result<Arc<Brick>, ReadError>;
 
+    /// A brick with its halo, whose rows lie along an axis.
+    ///
+    /// # Errors
+    /// As of [`brick`](Self::brick).
+    fn brick_along(&self, id: BrickId, row_axis: RowAxis) -> Result<Arc<Brick>, ReadError> {
+        let brick = self.brick(id)?;
+        Ok(if row_axis == RowAxis::X { brick } else { Arc::new(Arc::unwrap_or_clone(brick).along(row_axis)) })
+    }
+
     /// Several bricks with their halos, in the order of `ids`. Threads may share the work; what is found in memory, and
     /// stays there, depends on the order alone.
     fn bricks(&self, ids: &[BrickId]) -> Vec<Result<Arc<Brick>, ReadError>> {
@@ -47,13 +56,15 @@ pub trait BrickSource: Send + Sync {
     fn bytes_read(&self) -> u64;
 }
 
-/// The voxels of a brick in stored values, halo included: edge³ of them, x fastest, and then
+/// The voxels of a brick in stored values, halo included: edge³ of them, rows along x unless it is turned, and then
 /// [`Brick::PADDING`] more that mean nothing, so that kernels may read a little beyond.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Brick {
     /// Voxels along each axis.
     pub edge: u32,
     pub voxels: Voxels,
+    /// The axis that has changed places with x.
+    pub row_axis: RowAxis,
     /// Found when they are first asked for.
     cells: OnceLock<BrickCells>,
 }
@@ -74,7 +85,23 @@ impl Brick {
 
     /// A brick of edge³ voxels and the padding behind them.
     pub fn new(edge: u32, voxels: Voxels) -> Self {
-        Self { edge, voxels, cells: OnceLock::new() }
+        Self { edge, voxels, row_axis: RowAxis::X, cells: OnceLock::new() }
+    }
+
+    /// The brick with its rows along an axis.
+    pub fn along(self, row_axis: RowAxis) -> Self {
+        let Self { edge, mut voxels, row_axis: before, .. } = self;
+        for turn in [before, row_axis] {
+            let edge = edge as usize;
+            match &mut voxels {
+                Voxels::U8(voxels) => turn.turn(voxels, edge),
+                Voxels::I8(voxels) => turn.turn(voxels, edge),
+                Voxels::U16(voxels) => turn.turn(voxels, edge),
+                Voxels::I16(voxels) => turn.turn(voxels, edge),
+                Voxels::F32(voxels) => turn.turn(voxels, edge),
+            }
+        }
+        Self { row_axis, ..Self::new(edge, voxels) }
     }
 
     /// The ranges of the brick's cells.

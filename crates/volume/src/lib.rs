@@ -27,6 +27,7 @@ mod frame_report;
 mod occupancy;
 mod rays;
 mod render_settings;
+mod row_axis;
 mod shown_values;
 mod stored_type;
 mod transfer_function;
@@ -47,6 +48,7 @@ pub use frame_report::{BrickCounts, FrameReport, ResidencyCounts, StageTimes};
 pub use occupancy::Occupancy;
 pub use rays::{FrameRays, Ray, RayFan};
 pub use render_settings::{Mode, Phong, RenderSettings, Skip};
+pub use row_axis::RowAxis;
 pub use shown_values::ShownValues;
 pub use stored_type::StoredType;
 pub use transfer_function::{

@@ -133,7 +133,7 @@ impl<'a> Projection for LaneDvr<'a> {
             return Some(&self.shown_cells.all_rows);
         }
         let find = || OccupiedRows::new(brick.brick.cells(), |min, max| self.shown.meets(min, max));
-        self.shown_cells.rows(brick.index, find)
+        self.shown_cells.rows(brick.index, brick.brick.row_axis, find)
     }
 
     #[inline(always)]

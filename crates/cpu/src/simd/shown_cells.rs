@@ -1,6 +1,6 @@
 use std::sync::OnceLock;
 
-use glassbrick_volume::Occupancy;
+use glassbrick_volume::{Occupancy, RowAxis};
 
 use super::occupied_rows::OccupiedRows;
 
@@ -16,7 +16,8 @@ pub struct ShownCells {
 #[derive(Default)]
 struct ShownBrick {
     occupancy: OnceLock<Option<Box<Occupancy>>>,
-    rows: OnceLock<Option<Box<OccupiedRows>>>,
+    /// By the axis along which the brick's rows lie.
+    rows: [OnceLock<Option<Box<OccupiedRows>>>; RowAxis::ALL.len()],
 }
 
 impl ShownCells {
@@ -39,8 +40,9 @@ impl ShownCells {
     pub(super) fn rows(
         &self,
         brick: u32,
+        row_axis: RowAxis,
         find: impl FnOnce() -> Option<OccupiedRows>,
     ) -> Option<&OccupiedRows> {
-        self.bricks[brick as usize].rows.get_or_init(|| find().map(Box::new)).as_deref()
+        self.bricks[brick as usize].rows[row_axis as usize].get_or_init(|| find().map(Box::new)).as_deref()
     }
 }

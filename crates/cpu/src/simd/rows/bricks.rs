@@ -1,6 +1,6 @@
 use std::sync::OnceLock;
 
-use glassbrick_volume::{PlannedBrick, ReadError};
+use glassbrick_volume::{BrickGrid, PlannedBrick, ReadError};
 
 use super::super::projection::Projection;
 use super::march::Lined;
@@ -10,11 +10,13 @@ use crate::executor::{HeldBrick, Picture};
 /// A brick that has been looked at.
 pub type Prepared<'a, P, V> = Lined<'a, V, <P as Projection>::RowCells<'a>>;
 
-/// The bricks of a frame, by place in the grid, that are loaded and looked at when a ray first needs them.
+/// The bricks of a frame that are loaded and looked at when a ray first needs them.
 pub struct Bricks<'a, P: Projection, V> {
+    /// The turned grid.
+    pub grid: BrickGrid,
+    /// By place in the turned grid.
     planned: Vec<Option<&'a PlannedBrick>>,
-    /// Bricks of a line along x.
-    counts_x: usize,
+    /// By place in the volume's grid.
     held: &'a [HeldBrick],
     prepared: Vec<OnceLock<Option<Prepared<'a, P, V>>>>,
 }
@@ -22,16 +24,18 @@ pub struct Bricks<'a, P: Projection, V> {
 impl<'a, P: Projection, V: RowVoxel> Bricks<'a, P, V> {
     pub fn new(picture: &Picture<'a>, held: &'a [HeldBrick]) -> Self {
         let mut planned = vec![None; held.len()];
+        let row_axis = picture.row_axis;
+        let grid = picture.grid.along(row_axis);
         for brick in picture.scene.plan.layers.iter().flat_map(|layer| &layer.bricks) {
-            planned[brick.index as usize] = Some(brick);
+            let at = row_axis.swapped(picture.grid.brick(brick.index as usize).to_array());
+            planned[grid.index(at.into())] = Some(brick);
         }
-        let counts_x = picture.grid.counts.x as usize;
-        Self { planned, counts_x, held, prepared: held.iter().map(|_| OnceLock::new()).collect() }
+        Self { grid, planned, held, prepared: held.iter().map(|_| OnceLock::new()).collect() }
     }
 
-    /// The planned bricks of a line along x, by its first place in the grid.
+    /// The planned bricks of a line along the rows, by its first place in the turned grid.
     pub fn line(&self, first: usize) -> &[Option<&'a PlannedBrick>] {
-        &self.planned[first..first + self.counts_x]
+        &self.planned[first..first + self.grid.counts.x as usize]
     }
 
     /// Whether a brick was asked for before.

@@ -27,6 +27,57 @@ pub fn draw_rows<E: Send>(
     Ok(Frame { width, height, rgba, depth_mm })
 }
 
+/// The same where what is drawn are columns of the picture, so many `together` one behind the other: `width` and `height` are those of
+/// the picture on its side, so that it has `width` rows.
+pub fn draw_columns<E: Send>(
+    [width, height]: [u32; 2],
+    together: usize,
+    draw: impl Fn(usize, &mut [[f32; 4]], &mut [f32]) -> Result<(), E> + Sync,
+) -> Result<Frame, E> {
+    let (rows, columns) = (width as usize, height as usize);
+    let pixels = rows * columns;
+    let (mut rgba, mut depth_mm) = (Vec::with_capacity(pixels), Vec::with_capacity(pixels));
+    let colors = bands(&mut rgba.spare_capacity_mut()[..pixels], columns, together);
+    let depths = bands(&mut depth_mm.spare_capacity_mut()[..pixels], columns, together);
+    colors.into_par_iter().zip(depths).enumerate().with_max_len(1).try_for_each(
+        |(place, (colors, depths))| {
+            let drawn = rows * colors[0].len();
+            let (mut drawn_colors, mut drawn_depths) = (vec![[0.0; 4]; drawn], vec![f32::INFINITY; drawn]);
+            draw(place * together, &mut drawn_colors, &mut drawn_depths)?;
+            put(&drawn_colors, colors);
+            put(&drawn_depths, depths);
+            Ok(())
+        },
+    )?;
+    // SAFETY: bands have no pixel left over, and every one of them was put there.
+    unsafe {
+        rgba.set_len(pixels);
+        depth_mm.set_len(pixels);
+    }
+    Ok(Frame { width: columns as u32, height: rows as u32, rgba, depth_mm })
+}
+
+/// Cuts rows of `columns` into bands of so many columns `together`: each is its part of every row.
+fn bands<T>(items: &mut [T], columns: usize, together: usize) -> Vec<Vec<&mut [T]>> {
+    let mut bands: Vec<Vec<&mut [T]>> = (0..columns.div_ceil(together)).map(|_| Vec::new()).collect();
+    for row in items.chunks_exact_mut(columns) {
+        for (band, part) in bands.iter_mut().zip(row.chunks_mut(together)) {
+            band.push(part);
+        }
+    }
+    bands
+}
+
+/// Puts columns, one behind the other, into the rows of a band.
+fn put<T: Copy>(columns: &[T], band: Vec<&mut [MaybeUninit<T>]>) {
+    let height = band.len();
+    for (row, items) in band.into_iter().enumerate() {
+        for (column, item) in items.iter_mut().enumerate() {
+            item.write(columns[column * height + row]);
+        }
+    }
+}
+
 fn filled<T: Copy>(items: &mut [MaybeUninit<T>], item: T) -> &mut [T] {
     for place in &mut *items {
         place.write(item);
@@ -67,6 +118,23 @@ mod tests {
             [0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0],
             "the last has no other with it"
         );
+    }
+
+    #[test]
+    fn columns_that_are_drawn_stand_side_by_side() {
+        let frame = draw_columns([2, 5], 2, |first, rgba, depth_mm| {
+            for (column, depths) in (first..).zip(depth_mm.chunks_mut(2)) {
+                depths.copy_from_slice(&[column as f32, 10.0 + column as f32]);
+            }
+            rgba[0] = [1.0; 4];
+            Ok::<(), ()>(())
+        });
+        let frame = frame.expect("no column fails");
+        assert_eq!((frame.width, frame.height), (5, 2));
+        assert_eq!(frame.depth_mm, [0.0, 1.0, 2.0, 3.0, 4.0, 10.0, 11.0, 12.0, 13.0, 14.0]);
+        let (clear, drawn) = ([0.0; 4], [1.0; 4]);
+        assert_eq!(frame.rgba[..5], [drawn, clear, drawn, clear, drawn]);
+        assert_eq!(frame.rgba[5..], [clear; 5]);
     }
 
     #[test]

@@ -1,11 +1,13 @@
-use glassbrick_volume::{CELL_EDGE_LOG2, PlannedBrick};
+use glassbrick_volume::{CELL_EDGE_LOG2, PlannedBrick, RowAxis};
 
 use super::super::avx512::Avx512;
 use super::super::lanes::Lanes;
 use super::super::packet::LaneSteps;
 use super::super::projection::{Evaluated, Projection, Slopes};
+use super::interpolation::{gradient, value};
+use super::registers::Registers;
 use super::track::{Run, Step, Track};
-use super::voxels::{Place, RowBrick, RowVoxel, SideBySide, Single, gradient, value};
+use super::voxels::{Place, RowBrick, RowVoxel, SideBySide, Single, corners, surroundings};
 
 type F = <Avx512 as Lanes>::F;
 type I = <Avx512 as Lanes>::I;
@@ -209,19 +211,29 @@ impl<V: RowVoxel, C, const N: usize> Around<'_, V, C, N> {
 
     #[inline(always)]
     fn value(&self) -> F {
-        match self.single() {
-            Some(single) => value::<V>(&single, &self.place()),
-            None => value::<V>(&self.side_by_side(), &self.place()),
-        }
+        let place = self.place();
+        let corners = match self.single() {
+            Some(single) => corners::<V>(&single, &place),
+            None => corners::<V>(&self.side_by_side(), &place),
+        };
+        V::Registers::to_scale(value(&corners, place.fraction, self.row_axis()))
+    }
+
+    #[inline(always)]
+    fn row_axis(&self) -> RowAxis {
+        self.bricks[0].brick.row_axis
     }
 }
 
 impl<V: RowVoxel, C, const N: usize> Slopes<Avx512> for Around<'_, V, C, N> {
     #[inline(always)]
     fn gradient(&self) -> [F; 3] {
-        match self.single() {
-            Some(single) => gradient::<V>(&single, &self.place()),
-            None => gradient::<V>(&self.side_by_side(), &self.place()),
-        }
+        let place = self.place();
+        let surroundings = match self.single() {
+            Some(single) => surroundings::<V>(&single, &place),
+            None => surroundings::<V>(&self.side_by_side(), &place),
+        };
+        let [x, y, z] = gradient(&surroundings, place.fraction, self.row_axis());
+        [V::Registers::to_scale(x), V::Registers::to_scale(y), V::Registers::to_scale(z)]
     }
 }

@@ -1,11 +1,14 @@
-//! Frames whose rays go along the volume's rows from pixel to pixel, as from the front or above: sixteen rays side by
-//! side have their samples in the same row of voxels, which is read as a whole instead of voxel by voxel.
+//! Frames whose rays go along rows of voxels from pixel to pixel: sixteen rays side by side have their samples in the same row,
+//! which is read as a whole instead of voxel by voxel. From the front, the back, above or below, these are rows along x. Where
+//! rays go along another axis from pixel to pixel, or from one row of the picture to the next, as from all around, frame and
+//! bricks are turned so that they do.
 //!
 //! Such a packet goes through all its bricks at once, also where it meets several side by side. Each sample is formed in
 //! the same steps as where voxels are gathered, so it is the same picture to the bit.
 
 mod bricks;
 mod frame_rows;
+mod interpolation;
 mod march;
 mod rays;
 mod registers;
@@ -16,7 +19,7 @@ mod voxels;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use glassbrick_volume::{BrickSource, ReadError, Skip, StoredType};
+use glassbrick_volume::{BrickSource, PixelRect, ReadError, Skip, StoredType};
 
 use super::instruction_set::InstructionSet;
 use super::packet::PACKET;
@@ -24,14 +27,15 @@ use super::projection::Projection;
 use crate::executor::{CpuFrame, CpuScene, HeldBrick, Picture};
 use crate::kernel::NO_SAMPLE;
 use bricks::Bricks;
-use frame_rows::draw_rows;
+use frame_rows::{draw_columns, draw_rows};
 use march::MOST_ABREAST;
-use rays::RowRays;
+use rays::{RowRays, Turn};
 use row::{Row, Span};
 use track::{Section, Track};
 use voxels::{RowBrick, RowVoxel};
 
-/// Rows of a picture that one thread draws one after the other, where a row's samples are guessed from the one above.
+/// Rows of a picture that one thread draws one after the other, where a row's samples are guessed from the one above, or
+/// rows of the turned picture are columns.
 const ROWS_TOGETHER: usize = 8;
 
 /// The rays of a frame if it is best drawn along rows: nothing where they do not go so, where bricks are too
@@ -75,21 +79,28 @@ fn draw_voxels<P: Projection, V: RowVoxel>(
     scene: &CpuScene,
     rays: &RowRays,
 ) -> Result<CpuFrame, ReadError> {
-    let picture = Picture::new(source, scene);
+    let picture = Picture::new(source, scene, rays.turn.row_axis);
     let held: Vec<HeldBrick> = (0..picture.grid.len()).map(|_| OnceLock::new()).collect();
     let bricks = Bricks::<P, V>::new(&picture, &held);
-    let columns = columns(scene);
-    let width = scene.rays.size.x as usize;
+    let size = rays.turn.of_picture(scene.rays.size.to_array());
+    let columns = columns(scene, rays.turn, size[1]);
+    let width = size[0] as usize;
     let drawing = Drawing { projection, picture: &picture, bricks: &bricks, rays };
-    let together = if projection.guesses() { ROWS_TOGETHER } else { 1 };
-    let frame = draw_rows(scene.rays.size.to_array(), together, |first, rgba, depth_mm| {
+    let is_together = projection.guesses() || rays.turn.is_transposed;
+    let together = if is_together { ROWS_TOGETHER } else { 1 };
+    let draw = |first, rgba: &mut [[f32; 4]], depth_mm: &mut [f32]| {
         let mut guesses = projection.guesses().then(|| vec![NO_SAMPLE; width]);
         let pixels = rgba.chunks_exact_mut(width).zip(depth_mm.chunks_exact_mut(width));
         for (row, (rgba, depth_mm)) in (first..).zip(pixels) {
             drawing.draw(row, columns[row].clone(), rgba, depth_mm, guesses.as_deref_mut())?;
         }
         Ok::<(), ReadError>(())
-    })?;
+    };
+    let frame = if rays.turn.is_transposed {
+        draw_columns(size, together, draw)?
+    } else {
+        draw_rows(size, together, draw)?
+    };
     drop(bricks);
     let loaded = held.iter().filter(|brick| brick.get().is_some()).count();
     // Where hidden bricks are not to be skipped, none counts as hidden.
@@ -123,7 +134,7 @@ impl<P: Projection, V: RowVoxel> Drawing<'_, '_, P, V> {
         let (frame_rays, ray) = (picture.scene.rays, rays.rows[row]);
         let is_drawn = |line| bricks.line(line).iter().any(Option::is_some);
         // SAFETY: rows are drawn only where these instructions were detected.
-        let mut track = unsafe { Track::new(&picture.grid, ray, frame_rays.sample_count, is_drawn) };
+        let mut track = unsafe { Track::new(&bricks.grid, ray, frame_rays.sample_count, is_drawn) };
         if guesses.is_some() {
             track.sections.sort_by(|a, b| self.rank(b).total_cmp(&self.rank(a)));
         }
@@ -160,12 +171,12 @@ impl<P: Projection, V: RowVoxel> Drawing<'_, '_, P, V> {
     }
 }
 
-/// The columns of each row of the picture that can meet a planned brick.
-fn columns(scene: &CpuScene) -> Vec<Range<usize>> {
-    let mut columns = vec![0..0; scene.rays.size.y as usize];
+/// The columns of each of so many rows of the turned picture that can meet a planned brick.
+fn columns(scene: &CpuScene, turn: Turn, rows: u32) -> Vec<Range<usize>> {
+    let mut columns = vec![0..0; rows as usize];
     for brick in scene.plan.layers.iter().flat_map(|layer| &layer.bricks) {
-        let [[left, top], [right, bottom]] =
-            [brick.footprint.min, brick.footprint.max].map(|corner| corner.map(|at| at as usize));
+        let PixelRect { min, max } = turn.rect(&brick.footprint);
+        let [[left, top], [right, bottom]] = [min, max].map(|corner| corner.map(|at| at as usize));
         for columns in &mut columns[top..bottom] {
             let first = if columns.start == columns.end { left } else { columns.start.min(left) };
             *columns = first..columns.end.max(right);

@@ -121,9 +121,11 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
     /// The rays of a span, which have met no sample.
     #[target_feature(enable = "avx512f,avx512bw,avx512vl,popcnt")]
     fn start(&self, row: u32, Span { first, lanes }: Span) -> RowPacket<P::Gathered<Avx512>> {
+        let turn = self.rays.turn;
         let mut length_mm = [1.0; PACKET];
         for (column, length_mm) in (first..first + lanes).zip(&mut length_mm) {
-            *length_mm = self.picture.scene.rays.step_length_mm(column as u32, row);
+            let [column, row] = turn.of_picture([column as u32, row]);
+            *length_mm = self.picture.scene.rays.step_length_mm(column, row);
         }
         let [step_y, step_z] = self.ray.step;
         let step_x = Avx512::load(&self.rays.step_x[first..]);
@@ -131,7 +133,7 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
             start_x: Avx512::load(&self.rays.start_x[first..]),
             step_x,
             steps: LaneSteps {
-                voxels: [step_x, Avx512::splat(step_y), Avx512::splat(step_z)],
+                voxels: turn.row_axis.swapped([step_x, Avx512::splat(step_y), Avx512::splat(step_z)]),
                 length_mm: Avx512::load(&length_mm),
             },
             open: Avx512::mask((1 << lanes) - 1),

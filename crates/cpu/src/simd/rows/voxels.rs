@@ -1,10 +1,9 @@
 use std::arch::x86_64::*;
 
 use glam::{IVec3, Vec3};
-use glassbrick_volume::Voxels;
+use glassbrick_volume::{RowAxis, Voxels};
 
 use super::super::avx512::Avx512;
-use super::super::brick::lerp;
 use super::super::lanes::Lanes;
 use super::super::voxel::LaneVoxel;
 use super::registers::{Floats, Registers, Words};
@@ -36,11 +35,12 @@ type Pairs<V> = <<V as RowVoxel>::Registers as Registers>::Pairs;
 pub struct RowBrick<'a, V> {
     voxels: &'a [V],
     edge: usize,
+    pub row_axis: RowAxis,
     /// A bit for each voxel of a row.
     in_row: u64,
-    /// The volume's voxel of its first, along x.
+    /// The volume's voxel of its first, along the row.
     pub halo_start_x: i32,
-    /// The half-open range of sample positions along x that it owns.
+    /// The half-open range of sample positions along the row that it owns.
     pub owned_x: [f32; 2],
 }
 
@@ -107,6 +107,7 @@ impl<'a, V: RowVoxel> RowBrick<'a, V> {
         Self {
             voxels,
             edge: edge as usize,
+            row_axis: view.brick.row_axis,
             in_row: u64::MAX >> (64 - edge),
             halo_start_x,
             owned_x: [low, high],
@@ -145,54 +146,45 @@ impl<'a, V: RowVoxel> RowBrick<'a, V> {
     }
 }
 
-/// The stored value at each sample: the same steps as where voxels are gathered.
+/// The eight voxels around each sample, to their scale: by their places along z, y, and the row.
 #[inline(always)]
-pub fn value<V: RowVoxel>(rows: &impl Rows<V>, place: &Place) -> F {
-    let [_, fy, fz] = place.fraction;
-    let lower = lerp::<Avx512>(along_x::<V>(rows, place, 0, 0), along_x::<V>(rows, place, 1, 0), fy);
-    let upper = lerp::<Avx512>(along_x::<V>(rows, place, 0, 1), along_x::<V>(rows, place, 1, 1), fy);
-    V::Registers::to_scale(lerp::<Avx512>(lower, upper, fz))
-}
-
-/// The change of the stored value per voxel along each axis, up to a factor.
-#[inline(always)]
-pub fn gradient<V: RowVoxel>(rows: &impl Rows<V>, place: &Place) -> [F; 3] {
-    let [_, fy, fz] = place.fraction;
-    let x0 =
-        lerp::<Avx512>(change_along_x::<V>(rows, place, 0, 0), change_along_x::<V>(rows, place, 1, 0), fy);
-    let x1 =
-        lerp::<Avx512>(change_along_x::<V>(rows, place, 0, 1), change_along_x::<V>(rows, place, 1, 1), fy);
-    let (r00, r10) = (along_x::<V>(rows, place, 0, 0), along_x::<V>(rows, place, 1, 0));
-    let (r01, r11) = (along_x::<V>(rows, place, 0, 1), along_x::<V>(rows, place, 1, 1));
-    let y0 = Avx512::sub(r10, along_x::<V>(rows, place, -1, 0));
-    let y0 = lerp::<Avx512>(y0, Avx512::sub(along_x::<V>(rows, place, 2, 0), r00), fy);
-    let y1 = Avx512::sub(r11, along_x::<V>(rows, place, -1, 1));
-    let y1 = lerp::<Avx512>(y1, Avx512::sub(along_x::<V>(rows, place, 2, 1), r01), fy);
-    let z0 = Avx512::sub(r01, along_x::<V>(rows, place, 0, -1));
-    let z0 = lerp::<Avx512>(z0, Avx512::sub(along_x::<V>(rows, place, 0, 2), r00), fz);
-    let z1 = Avx512::sub(r11, along_x::<V>(rows, place, 1, -1));
-    let z1 = lerp::<Avx512>(z1, Avx512::sub(along_x::<V>(rows, place, 1, 2), r10), fz);
-    let x = lerp::<Avx512>(x0, x1, fz);
+pub fn corners<V: RowVoxel>(rows: &impl Rows<V>, place: &Place) -> [[[F; 2]; 2]; 2] {
     [
-        V::Registers::to_scale(x),
-        V::Registers::to_scale(lerp::<Avx512>(y0, y1, fz)),
-        V::Registers::to_scale(lerp::<Avx512>(z0, z1, fy)),
+        [pair::<V>(rows, place, 0, [0, 0]), pair::<V>(rows, place, 0, [1, 0])],
+        [pair::<V>(rows, place, 0, [0, 1]), pair::<V>(rows, place, 0, [1, 1])],
     ]
 }
 
-/// The value in the row that lies `y` and `z` aside, to the voxel's scale.
+/// The voxels around each sample that central differences need, to their scale: those in the middle of 4³, by their places
+/// along z, y, and the row, with the next ones on each side; zeros at the edges of these.
 #[inline(always)]
-fn along_x<V: RowVoxel>(rows: &impl Rows<V>, place: &Place, y: isize, z: isize) -> F {
-    let [first, second] = V::Registers::numbers(rows.pairs(place, 0, y, z));
-    lerp::<Avx512>(first, second, place.fraction[0])
+pub fn surroundings<V: RowVoxel>(rows: &impl Rows<V>, place: &Place) -> [[[F; 4]; 4]; 4] {
+    let zero = Avx512::splat(0.0);
+    let mut voxels = [[[zero; 4]; 4]; 4];
+    for z in 1..3 {
+        for y in 1..3 {
+            let row = [y as isize - 1, z as isize - 1];
+            let [before, first] = pair::<V>(rows, place, -1, row);
+            let [second, behind] = pair::<V>(rows, place, 1, row);
+            voxels[z][y] = [before, first, second, behind];
+        }
+    }
+    for inner in 1..3 {
+        for outer in [0, 3] {
+            let [inner_row, outer_row] = [inner as isize - 1, outer as isize - 1];
+            let [first, second] = pair::<V>(rows, place, 0, [outer_row, inner_row]);
+            (voxels[inner][outer][1], voxels[inner][outer][2]) = (first, second);
+            let [first, second] = pair::<V>(rows, place, 0, [inner_row, outer_row]);
+            (voxels[outer][inner][1], voxels[outer][inner][2]) = (first, second);
+        }
+    }
+    voxels
 }
 
-/// Twice the change along x in the row that lies `y` and `z` aside, to the voxel's scale.
+/// The voxels before and behind samples `along` the row, in the row so far aside along y and z.
 #[inline(always)]
-fn change_along_x<V: RowVoxel>(rows: &impl Rows<V>, place: &Place, y: isize, z: isize) -> F {
-    let [before, at] = V::Registers::numbers(rows.pairs(place, -1, y, z));
-    let [next, beyond] = V::Registers::numbers(rows.pairs(place, 1, y, z));
-    lerp::<Avx512>(Avx512::sub(next, before), Avx512::sub(beyond, at), place.fraction[0])
+fn pair<V: RowVoxel>(rows: &impl Rows<V>, place: &Place, along: i32, [y, z]: [isize; 2]) -> [F; 2] {
+    V::Registers::numbers(rows.pairs(place, along, y, z))
 }
 
 impl RowVoxel for u16 {
