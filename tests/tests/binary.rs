@@ -99,7 +99,8 @@ pub fn glassbrick_in_little_memory(line: &str, paths: &[&Path]) -> Outcome {
     }
     let mut shell = Command::new("sh");
     shell.arg("-c").arg(format!("ulimit -v {LITTLE_MEMORY_KIB} && exec \"$0\" \"$@\"")).arg(binary());
-    shell.envs(NO_DRIVERS);
+    // One heap: glibc sets 64 MiB of addresses aside for each thread's own, twice as many for a moment.
+    shell.envs(NO_DRIVERS).env("MALLOC_ARENA_MAX", "1");
     outcome(shell, line, paths)
 }
 

@@ -52,6 +52,16 @@ pub fn available_bytes() -> Option<u64> {
     system_memory(sysinfo::System::available_memory, |limits| limits.free_memory)
 }
 
+/// Whether so much can be had at once: a process may be held to less than is free.
+pub fn can_reserve(bytes: u64) -> bool {
+    let Ok(bytes) = usize::try_from(bytes) else { return false };
+    let mut reserved = Vec::<u8>::new();
+    let is_reserved = reserved.try_reserve_exact(bytes).is_ok();
+    // Else compilers see that nothing is put there, and take it to succeed.
+    std::hint::black_box(&reserved);
+    is_reserved
+}
+
 fn system_memory(
     of_machine: fn(&sysinfo::System) -> u64,
     of_container: fn(&sysinfo::CGroupLimits) -> u64,

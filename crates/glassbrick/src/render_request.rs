@@ -74,7 +74,8 @@ impl RenderRequest {
             return Err(Error::View("a picture has 1 to 32768 pixels on a side"));
         }
         let frame_bytes = self.size.iter().map(|&pixels| u64::from(pixels)).product::<u64>() * PIXEL_BYTES;
-        if process_memory::available_bytes().is_some_and(|available| frame_bytes > available) {
+        let is_too_much = process_memory::available_bytes().is_some_and(|available| frame_bytes > available);
+        if is_too_much || !process_memory::can_reserve(frame_bytes) {
             return Err(Error::View(
                 "a picture of this size does not fit into the memory that is free; make it smaller",
             ));
