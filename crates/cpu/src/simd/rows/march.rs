@@ -41,7 +41,7 @@ pub struct RowPacket<G> {
 impl<G> RowPacket<G> {
     /// Where the samples of a number lie along x: multiplied, then added, as the definition of the picture has it.
     #[inline(always)]
-    fn x(&self, number: F) -> F {
+    pub fn x(&self, number: F) -> F {
         Avx512::add(self.start_x, Avx512::mul(number, self.step_x))
     }
 }

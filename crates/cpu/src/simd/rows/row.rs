@@ -67,6 +67,10 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
                     }
                 }
                 if !self.bricks.is_held(planned) {
+                    // Those that are held cost no more to try than to look at.
+                    if packet.as_ref().is_some_and(|packet| !self.comes_to(packet, section, planned)) {
+                        continue;
+                    }
                     self.hint(place + 1 - usize::from(guessed.is_some()), span);
                 }
                 if let Some(lined) = self.bricks.get(self.projection, self.picture, planned)? {
@@ -93,6 +97,22 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
             self.projection.store::<Avx512>(&packet.gathered, state, 0);
             samples
         }))
+    }
+
+    /// Whether any ray of a packet that takes more samples may have one of a section's in a brick.
+    #[inline(always)]
+    fn comes_to(
+        &self,
+        packet: &RowPacket<P::Gathered<Avx512>>,
+        section: &Section,
+        planned: &PlannedBrick,
+    ) -> bool {
+        let at = self.picture.row_axis.swapped(self.picture.grid.brick(planned.index as usize).to_array());
+        let [low, high] = self.bricks.grid.owned_box(at.into()).map(|corner| corner.x);
+        let enters = packet.x(Avx512::splat(section.numbers.start as f32));
+        let leaves = packet.x(Avx512::splat((section.numbers.end - 1) as f32));
+        let (first, last) = (Avx512::min(enters, leaves), Avx512::max(enters, leaves));
+        packet.open & Avx512::ge(last, Avx512::splat(low)) & Avx512::lt(first, Avx512::splat(high)) != 0
     }
 
     /// Adds the samples of some runs of a section in its bricks to the rays of a packet; returns how many were evaluated.
