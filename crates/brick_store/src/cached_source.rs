@@ -220,6 +220,10 @@ impl BrickSource for CachedSource {
         self.brick_bytes.saturating_mul(bricks as u64) <= self.budget_bytes - self.held_bytes
     }
 
+    fn is_kept(&self, id: BrickId) -> bool {
+        self.kept.contains_key(&id)
+    }
+
     fn not_finite(&self) -> u64 {
         self.source.not_finite()
     }
@@ -250,7 +254,9 @@ mod tests {
     fn a_brick_that_is_kept_is_turned_and_not_loaded_again() {
         let source = cached(3);
         let id = BrickId::new(0, UVec3::ZERO);
+        assert!(!source.is_kept(id));
         let brick = Brick::clone(&source.brick(id).expect("an array can be read"));
+        assert!(source.is_kept(id));
         for row_axis in [RowAxis::Z, RowAxis::Y, RowAxis::X] {
             let turned = source.brick_along(id, row_axis).expect("an array can be read");
             assert_eq!((turned.row_axis, &*turned), (row_axis, &brick.clone().along(row_axis)));

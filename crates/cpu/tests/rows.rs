@@ -4,8 +4,8 @@ use glam::{DVec3, UVec2, UVec3};
 use glassbrick_brick_store::{CachedSource, FlatSource};
 use glassbrick_cpu::{CpuFrame, CpuScene, InstructionSet, ShownCells, draw};
 use glassbrick_volume::{
-    BrickLayout, BrickSource, Camera, ControlPoint, FramePlan, FrameRays, Mode, NamedView, Phong, Projection,
-    RenderSettings, Skip, StoredType, TransferFunction, VolumeDesc, filtered_visible,
+    BrickId, BrickLayout, BrickSource, Camera, ControlPoint, FramePlan, FrameRays, Mode, NamedView, Phong,
+    Projection, RenderSettings, Skip, StoredType, TransferFunction, VolumeDesc, filtered_visible,
 };
 
 const EXTENT: UVec3 = UVec3::new(150, 70, 90);
@@ -118,6 +118,10 @@ fn rows_are_what_is_gathered() {
         let (source, short_of_memory) = (in_memory(stored_type, edge), volume(stored_type, edge));
         assert!(source.can_hold(source.grid(0).len()) && !short_of_memory.can_hold(1));
         let tf = transfer_function(&source);
+        // Bricks are turned only where some are at hand.
+        let first = BrickId::new(0, UVec3::ZERO);
+        source.brick(first).expect("an array can be read");
+        assert!(source.is_kept(first));
         let views = [NamedView::Front, NamedView::Back, NamedView::Top, NamedView::Left, NamedView::Right];
         let mut cameras = views.map(|view| Camera::framing(source.desc(), view)).to_vec();
         let around = |azimuth, elevation| Camera::framing_around(source.desc(), azimuth, elevation);

@@ -49,6 +49,11 @@ pub trait BrickSource: Send + Sync {
     /// Whether that many bricks can be in use at once without going over the memory that was promised.
     fn can_hold(&self, bricks: usize) -> bool;
 
+    /// Whether a brick is at hand without being loaded.
+    fn is_kept(&self, _id: BrickId) -> bool {
+        false
+    }
+
     /// Voxels of the volume that are not finite; they are read as 0.
     fn not_finite(&self) -> u64;
 
@@ -88,9 +93,10 @@ impl Brick {
         Self { edge, voxels, row_axis: RowAxis::X, cells: OnceLock::new() }
     }
 
-    /// The brick with its rows along an axis.
+    /// The brick with its rows along an axis. What was found of its cells is turned, too.
     pub fn along(self, row_axis: RowAxis) -> Self {
-        let Self { edge, mut voxels, row_axis: before, .. } = self;
+        let Self { edge, mut voxels, row_axis: before, cells } = self;
+        let mut cells = cells.into_inner();
         for turn in [before, row_axis] {
             let edge = edge as usize;
             match &mut voxels {
@@ -100,8 +106,12 @@ impl Brick {
                 Voxels::I16(voxels) => turn.turn(voxels, edge),
                 Voxels::F32(voxels) => turn.turn(voxels, edge),
             }
+            if let Some(BrickCells { edge, min, max }) = &mut cells {
+                turn.turn(min, *edge);
+                turn.turn(max, *edge);
+            }
         }
-        Self { row_axis, ..Self::new(edge, voxels) }
+        Self { edge, voxels, row_axis, cells: cells.map_or_else(OnceLock::new, OnceLock::from) }
     }
 
     /// The ranges of the brick's cells.
@@ -119,5 +129,24 @@ impl Brick {
             Voxels::F32(voxels) => 4 * voxels.len(),
         };
         voxels + BrickCells::bytes(self.edge)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cells_of_a_turned_brick_are_those_of_its_voxels() {
+        let edge = 21;
+        let voxels = (0..edge * edge * edge + Brick::PADDING as u32).map(|place| (place * 7919 / 8) as u16);
+        let brick = Brick::new(edge, Voxels::U16(voxels.collect()));
+        brick.cells();
+        for row_axis in RowAxis::ALL {
+            let turned = brick.clone().along(row_axis);
+            assert!(turned.cells.get().is_some(), "they are not found again");
+            assert_eq!(*turned.cells(), BrickCells::of(&turned), "{row_axis:?}");
+            assert_eq!(turned.along(RowAxis::X), brick, "{row_axis:?}, and back");
+        }
     }
 }

@@ -19,7 +19,9 @@ mod voxels;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use glassbrick_volume::{BrickSource, PixelRect, ReadError, Skip, StoredType};
+use glassbrick_volume::{
+    BrickId, BrickSource, PixelRect, PlannedBrick, ReadError, RowAxis, Skip, StoredType,
+};
 
 use super::instruction_set::InstructionSet;
 use super::packet::PACKET;
@@ -38,8 +40,9 @@ use voxels::{RowBrick, RowVoxel};
 /// rows of the turned picture are columns.
 const ROWS_TOGETHER: usize = 8;
 
-/// The rays of a frame if it is best drawn along rows: nothing where they do not go so, where bricks are too
-/// long for it, where memory does not hold all bricks, or this processor lacks the instructions.
+/// The rays of a frame if it is best drawn along rows: nothing where they do not go so, where bricks are too long for it,
+/// where memory does not hold all bricks, where bricks would be turned that are loaded for the first time, or this processor lacks
+/// the instructions.
 pub fn suits(source: &dyn BrickSource, scene: &CpuScene, instruction_set: InstructionSet) -> Option<RowRays> {
     let grid = source.grid(scene.plan.level);
     let can_pick = instruction_set == InstructionSet::Avx512
@@ -52,7 +55,14 @@ pub fn suits(source: &dyn BrickSource, scene: &CpuScene, instruction_set: Instru
     let rays = RowRays::new(scene.rays, PACKET)?;
     // What is as wide as so many cores meets two bricks more; footprints are a pixel larger on each side.
     let (core, widest) = (grid.layout.core(), (MOST_ABREAST as u32 - 2) * grid.layout.core());
-    (rays.widest(PACKET + 2, core, scene.rays.sample_count) < widest as f32).then_some(rays)
+    let is_narrow = rays.widest(PACKET + 2, core, scene.rays.sample_count) < widest as f32;
+    // To turn bricks pays where they are drawn again, which a first picture does not tell.
+    let pays = rays.turn.row_axis == RowAxis::X || {
+        let mut bricks = scene.plan.layers.iter().flat_map(|layer| &layer.bricks);
+        let id = |brick: &PlannedBrick| BrickId::new(scene.plan.level, grid.brick(brick.index as usize));
+        bricks.any(|brick| source.is_kept(id(brick)))
+    };
+    (is_narrow && pays).then_some(rays)
 }
 
 /// Draws a frame along rows.
