@@ -125,6 +125,19 @@ impl CachedSource {
         brick
     }
 
+    /// A brick that is kept, with its rows along an axis. It is kept once: where they lie along another, it is turned, and
+    /// kept so.
+    fn turned(&self, id: BrickId, brick: Arc<Brick>, row_axis: RowAxis) -> Arc<Brick> {
+        if brick.row_axis == row_axis {
+            return brick;
+        }
+        // No longer kept, it belongs to this thread alone, unless another draws it just now.
+        self.kept.remove(&id);
+        let turned = brick.shared_along(row_axis);
+        self.kept.insert(id, Arc::clone(&turned));
+        turned
+    }
+
     /// Takes note of a brick that was asked for.
     fn count(&self, missed: bool) {
         if missed {
@@ -134,11 +147,6 @@ impl CachedSource {
             self.hits.fetch_add(1, Ordering::Relaxed);
         }
     }
-}
-
-/// The same brick with its rows along an axis.
-fn along(brick: Arc<Brick>, row_axis: RowAxis) -> Arc<Brick> {
-    if brick.row_axis == row_axis { brick } else { Arc::new(Arc::unwrap_or_clone(brick).along(row_axis)) }
 }
 
 impl BrickSource for CachedSource {
@@ -166,45 +174,29 @@ impl BrickSource for CachedSource {
         self.brick_along(id, RowAxis::X)
     }
 
-    /// A brick is kept once: where it is kept along another axis, it is turned, and kept so.
     fn brick_along(&self, id: BrickId, row_axis: RowAxis) -> Result<Arc<Brick>, ReadError> {
         let mut missed = false;
         let brick = self.kept.get_or_insert_with(&id, || {
             missed = true;
-            self.load(id).map(|brick| along(brick, row_axis))
+            self.load(id).map(|brick| brick.shared_along(row_axis))
         })?;
         self.count(missed);
-        if brick.row_axis == row_axis {
-            return Ok(brick);
-        }
-        // No longer kept, it belongs to this thread alone, unless another draws it just now, and is turned in its place.
-        self.kept.remove(&id);
-        let turned = along(brick, row_axis);
-        self.kept.insert(id, Arc::clone(&turned));
-        Ok(turned)
+        Ok(self.turned(id, brick, row_axis))
     }
 
     /// Threads share what has to be loaded; what is kept is looked up before and put in after, one by one.
     fn bricks(&self, ids: &[BrickId]) -> Vec<Result<Arc<Brick>, ReadError>> {
-        let kept: Vec<Option<Arc<Brick>>> = ids.iter().map(|id| self.kept.get(id)).collect();
-        for (id, brick) in ids.iter().zip(&kept) {
-            if brick.as_ref().is_some_and(|brick| brick.row_axis != RowAxis::X) {
-                self.kept.remove(id);
-            }
-        }
-        let row_axes: Vec<Option<RowAxis>> =
-            kept.iter().map(|brick| brick.as_ref().map(|brick| brick.row_axis)).collect();
-        let bricks: Vec<Result<Arc<Brick>, ReadError>> = ids
-            .par_iter()
-            .zip(kept)
-            .map(|(&id, kept)| kept.map_or_else(|| self.load(id), |brick| Ok(along(brick, RowAxis::X))))
-            .collect();
-        for ((&id, brick), row_axis) in ids.iter().zip(&bricks).zip(row_axes) {
+        let kept = |&id: &BrickId| Some(self.turned(id, self.kept.get(&id)?, RowAxis::X));
+        let kept: Vec<Option<Arc<Brick>>> = ids.iter().map(kept).collect();
+        let missed: Vec<bool> = kept.iter().map(Option::is_none).collect();
+        let bricks: Vec<Result<Arc<Brick>, ReadError>> =
+            ids.par_iter().zip(kept).map(|(&id, kept)| kept.map_or_else(|| self.load(id), Ok)).collect();
+        for ((&id, brick), missed) in ids.iter().zip(&bricks).zip(missed) {
             if let Ok(brick) = brick {
-                if row_axis != Some(RowAxis::X) {
+                if missed {
                     self.kept.insert(id, Arc::clone(brick));
                 }
-                self.count(row_axis.is_none());
+                self.count(missed);
             }
         }
         bricks

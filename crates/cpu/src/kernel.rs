@@ -51,7 +51,7 @@ pub struct BrickView<'a> {
 
 impl<'a> BrickView<'a> {
     pub fn new(brick: &'a Brick, planned: &PlannedBrick, grid: &BrickGrid, range: &BrickRange) -> Self {
-        let at = brick.row_axis.swapped(grid.brick(planned.index as usize).to_array()).into();
+        let at = grid.brick_along(planned.index as usize, brick.row_axis);
         let grid = grid.along(brick.row_axis);
         Self {
             brick,

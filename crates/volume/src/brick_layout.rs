@@ -122,6 +122,11 @@ impl BrickGrid {
         UVec3::new(x as u32, (rows % counts.y) as u32, (rows / counts.y) as u32)
     }
 
+    /// The brick at a place in tables, as a brick of the grid that [`along`](Self::along) gives.
+    pub fn brick_along(&self, index: usize, row_axis: RowAxis) -> UVec3 {
+        row_axis.swapped(self.brick(index).to_array()).into()
+    }
+
     /// First voxel of a brick's core.
     pub fn core_start(&self, brick: UVec3) -> UVec3 {
         brick * self.layout.core()

@@ -33,8 +33,7 @@ pub trait BrickSource: Send + Sync {
     /// # Errors
     /// As of [`brick`](Self::brick).
     fn brick_along(&self, id: BrickId, row_axis: RowAxis) -> Result<Arc<Brick>, ReadError> {
-        let brick = self.brick(id)?;
-        Ok(if row_axis == RowAxis::X { brick } else { Arc::new(Arc::unwrap_or_clone(brick).along(row_axis)) })
+        self.brick(id).map(|brick| brick.shared_along(row_axis))
     }
 
     /// Several bricks with their halos, in the order of `ids`. Threads may share the work; what is found in memory, and
@@ -112,6 +111,11 @@ impl Brick {
             }
         }
         Self { edge, voxels, row_axis, cells: cells.map_or_else(OnceLock::new, OnceLock::from) }
+    }
+
+    /// The brick with its rows along an axis: the same where they are, turned in place where nobody else holds it.
+    pub fn shared_along(self: Arc<Self>, row_axis: RowAxis) -> Arc<Self> {
+        if self.row_axis == row_axis { self } else { Arc::new(Arc::unwrap_or_clone(self).along(row_axis)) }
     }
 
     /// The ranges of the brick's cells.

@@ -27,8 +27,8 @@ impl<'a, P: Projection, V: RowVoxel> Bricks<'a, P, V> {
         let row_axis = picture.row_axis;
         let grid = picture.grid.along(row_axis);
         for brick in picture.scene.plan.layers.iter().flat_map(|layer| &layer.bricks) {
-            let at = row_axis.swapped(picture.grid.brick(brick.index as usize).to_array());
-            planned[grid.index(at.into())] = Some(brick);
+            let at = picture.grid.brick_along(brick.index as usize, row_axis);
+            planned[grid.index(at)] = Some(brick);
         }
         Self { grid, planned, held, prepared: held.iter().map(|_| OnceLock::new()).collect() }
     }

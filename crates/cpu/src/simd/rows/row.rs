@@ -107,8 +107,8 @@ impl<'a, P: Projection, V: RowVoxel> Row<'_, 'a, P, V> {
         section: &Section,
         planned: &PlannedBrick,
     ) -> bool {
-        let at = self.picture.row_axis.swapped(self.picture.grid.brick(planned.index as usize).to_array());
-        let [low, high] = self.bricks.grid.owned_box(at.into()).map(|corner| corner.x);
+        let at = self.picture.grid.brick_along(planned.index as usize, self.picture.row_axis);
+        let [low, high] = self.bricks.grid.owned_box(at).map(|corner| corner.x);
         let enters = packet.x(Avx512::splat(section.numbers.start as f32));
         let leaves = packet.x(Avx512::splat((section.numbers.end - 1) as f32));
         let (first, last) = (Avx512::min(enters, leaves), Avx512::max(enters, leaves));
