@@ -11,20 +11,16 @@ pub fn draw_rows<E: Send>(
     together: usize,
     draw: impl Fn(usize, &mut [[f32; 4]], &mut [f32]) -> Result<(), E> + Sync,
 ) -> Result<Frame, E> {
-    let pixels = width as usize * height as usize;
-    let (mut rgba, mut depth_mm) = (Vec::with_capacity(pixels), Vec::with_capacity(pixels));
-    let colors = rgba.spare_capacity_mut()[..pixels].par_chunks_mut(together * width as usize);
-    let depths = depth_mm.spare_capacity_mut()[..pixels].par_chunks_mut(together * width as usize);
-    // One by one: some rows take long, and others no time.
-    colors.zip(depths).enumerate().with_max_len(1).try_for_each(|(place, (colors, depths))| {
-        draw(place * together, filled(colors, [0.0; 4]), filled(depths, f32::INFINITY))
-    })?;
-    // SAFETY: rows have no pixel left over, and every one of them was filled.
-    unsafe {
-        rgba.set_len(pixels);
-        depth_mm.set_len(pixels);
-    }
-    Ok(Frame { width, height, rgba, depth_mm })
+    let fill = |colors: &mut [MaybeUninit<[f32; 4]>], depths: &mut [MaybeUninit<f32>]| {
+        let colors = colors.par_chunks_mut(together * width as usize);
+        let depths = depths.par_chunks_mut(together * width as usize);
+        // One by one: some rows take long, and others no time.
+        colors.zip(depths).enumerate().with_max_len(1).try_for_each(|(place, (colors, depths))| {
+            draw(place * together, filled(colors, [0.0; 4]), filled(depths, f32::INFINITY))
+        })
+    };
+    // SAFETY: rows have no pixel left over, and every one of them is filled.
+    unsafe { frame(width, height, fill) }
 }
 
 /// The same where what is drawn are columns of the picture, so many `together` one behind the other: `width` and `height` are those of
@@ -35,26 +31,39 @@ pub fn draw_columns<E: Send>(
     draw: impl Fn(usize, &mut [[f32; 4]], &mut [f32]) -> Result<(), E> + Sync,
 ) -> Result<Frame, E> {
     let (rows, columns) = (width as usize, height as usize);
-    let pixels = rows * columns;
-    let (mut rgba, mut depth_mm) = (Vec::with_capacity(pixels), Vec::with_capacity(pixels));
-    let colors = bands(&mut rgba.spare_capacity_mut()[..pixels], columns, together);
-    let depths = bands(&mut depth_mm.spare_capacity_mut()[..pixels], columns, together);
-    colors.into_par_iter().zip(depths).enumerate().with_max_len(1).try_for_each(
-        |(place, (colors, depths))| {
+    let fill = |colors: &mut [MaybeUninit<[f32; 4]>], depths: &mut [MaybeUninit<f32>]| {
+        let bands = bands(colors, columns, together).into_par_iter().zip(bands(depths, columns, together));
+        bands.enumerate().with_max_len(1).try_for_each(|(place, (colors, depths))| {
             let drawn = rows * colors[0].len();
             let (mut drawn_colors, mut drawn_depths) = (vec![[0.0; 4]; drawn], vec![f32::INFINITY; drawn]);
             draw(place * together, &mut drawn_colors, &mut drawn_depths)?;
             put(&drawn_colors, colors);
             put(&drawn_depths, depths);
             Ok(())
-        },
-    )?;
-    // SAFETY: bands have no pixel left over, and every one of them was put there.
+        })
+    };
+    // SAFETY: bands have no pixel left over, and every one of them is put there.
+    unsafe { frame(height, width, fill) }
+}
+
+/// A frame whose pixels and depths `fill` writes.
+///
+/// # Safety
+/// It writes all of them, unless it fails.
+unsafe fn frame<E>(
+    width: u32,
+    height: u32,
+    fill: impl FnOnce(&mut [MaybeUninit<[f32; 4]>], &mut [MaybeUninit<f32>]) -> Result<(), E>,
+) -> Result<Frame, E> {
+    let pixels = width as usize * height as usize;
+    let (mut rgba, mut depth_mm) = (Vec::with_capacity(pixels), Vec::with_capacity(pixels));
+    fill(&mut rgba.spare_capacity_mut()[..pixels], &mut depth_mm.spare_capacity_mut()[..pixels])?;
+    // SAFETY: the caller's promise.
     unsafe {
         rgba.set_len(pixels);
         depth_mm.set_len(pixels);
     }
-    Ok(Frame { width: columns as u32, height: rows as u32, rgba, depth_mm })
+    Ok(Frame { width, height, rgba, depth_mm })
 }
 
 /// Cuts rows of `columns` into bands of so many columns `together`: each is its part of every row.
